@@ -174,8 +174,8 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
     if (state->real == NULL) {
         return WH_E_ARGUMENT;
     }
-    if (scene->ahead != NULL && steps > 0) {
-        return scene->ahead(scene, state, steps);
+    if (scene->multi_step != NULL && steps > 0) {
+        return scene->multi_step(scene, state, steps);
     }
     wh_status status = WH_OK;
     for (; status == WH_OK && steps > 0; steps--) {

@@ -64,7 +64,7 @@ struct wh_scene {
     /* Does one step and increments state->steps. Returns as wh_scene_step() does. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* Does `steps` >= 1 steps: see wh_scene_steps(). NULL unless generated code is compiled with -DWH_MULTI_STEP=1. */
-    wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
+    wh_status (*multi_step)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* Computes the outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
     /* wh_arithmetic() (arithmetic.h), compiled in the same file as advance(). May be NULL. */

@@ -1,7 +1,7 @@
 /* bench.c: counts the instructions of single steps of every generated scene, on a board under the counting plugin or on
  * the PC under callgrind (count_rows.sh). The program only prints the meaning of the counted intervals:
  *
- *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST have one step each, or, if METHOD ends in "-ahead",
+ *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST have one step each, or, if METHOD ends in "-multistep",
  *                                            STEPS_A_CALL steps
  *     stack NAME BYTES                       deepest stack of the program during those steps
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the processor counts them itself (board.h)
@@ -150,7 +150,7 @@ static wh_status count_multi_step(const wh_scene *scene, wh_state *state) {
         wh_count_end();
         intervals++;
     }
-    say_counted(scene->name, wh_methods[scene->method].word, "-ahead", first, intervals - 1U);
+    say_counted(scene->name, wh_methods[scene->method].word, "-multistep", first, intervals - 1U);
     return status;
 }
 
@@ -172,7 +172,7 @@ static bool count_scene(const wh_scene *scene) {
     if (status == WH_OK) {
         say_stack(scene->name);
         say_counted(scene->name, wh_methods[scene->method].word, sums, first, intervals - 1U);
-        status = scene->ahead != NULL ? count_multi_step(scene, &state) : WH_OK;
+        status = scene->multi_step != NULL ? count_multi_step(scene, &state) : WH_OK;
     }
     if (status != WH_OK) {
         say_failed(scene->name, status);

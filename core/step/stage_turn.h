@@ -192,74 +192,74 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
 
 /* Computes the shear angles at a stage, in units of h / parts. gained[j][angle] is the change of the angle's rate from
  * the begin to stage j + 1. Returns false if the shear angles are zero at this stage. */
-WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
-                                unsigned angles, wh_real *lean) {
-    bool leans = false;
+WH_INLINE bool wh_turning_shears(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
+                                 unsigned angles, wh_real *shear) {
+    bool shears = false;
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         bool any = false;
-        lean[i] = WH_R(0.0);
+        shear[i] = WH_R(0.0);
         WH_UNROLL
         for (unsigned j = 1; j < WH_STAGES; j++) {
             if (j < stage) {
-                wh_total_add(&lean[i], &any, of->share[j], gained[j - 1][i]);
+                wh_total_add(&shear[i], &any, of->share[j], gained[j - 1][i]);
             }
         }
-        leans = leans || any;
+        shears = shears || any;
     }
-    return leans;
+    return shears;
 }
 
-/* Rotates the pair `at` by the small angle `lean`, by three shears. */
-WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
-    const wh_real half = WH_R(0.5) * lean;
+/* Rotates the pair `at` by the small angle `shear`, by three shears. */
+WH_INLINE_WITH_FPU wh_wave wh_shear(wh_wave at, wh_sine_parts parts, wh_real shear, bool precise) {
+    const wh_real half = WH_R(0.5) * shear;
     const wh_real cosine = at.cosine - half * at.sine;
-    wh_wave leant;
+    wh_wave sheared;
     if (precise) {
-        leant.sine = parts.sine + (parts.sine_rest + lean * cosine);
-        leant.cosine = parts.cosine + (parts.cosine_rest - half * (at.sine + leant.sine));
+        sheared.sine = parts.sine + (parts.sine_rest + shear * cosine);
+        sheared.cosine = parts.cosine + (parts.cosine_rest - half * (at.sine + sheared.sine));
     } else {
-        leant.sine = at.sine + lean * cosine;
-        leant.cosine = cosine - half * leant.sine;
+        sheared.sine = at.sine + shear * cosine;
+        sheared.cosine = cosine - half * sheared.sine;
     }
-    return leant;
+    return sheared;
 }
 
-/* Rotates the pair `at` by the angle `lean` of any size. */
-WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
+/* Rotates the pair `at` by the angle `shear` of any size. */
+WH_INLINE wh_wave wh_shear_far(wh_wave at, wh_sine_parts parts, wh_real shear, bool precise) {
     const wh_wave turn =
-        WH_ABS(lean) <= WH_SINCOS_SMALL ? wh_sincos_small(lean) : wh_sincos_far(lean, true);
+        WH_ABS(shear) <= WH_SINCOS_SMALL ? wh_sincos_small(shear) : wh_sincos_far(shear, true);
     const wh_real sine = at.sine * turn.cosine + at.cosine * turn.sine;
     const wh_real cosine = at.cosine * turn.cosine - at.sine * turn.sine;
-    wh_wave leant;
+    wh_wave sheared;
     if (precise) {
-        leant.sine = parts.sine + (parts.sine_rest + sine);
-        leant.cosine = parts.cosine + (parts.cosine_rest + cosine);
+        sheared.sine = parts.sine + (parts.sine_rest + sine);
+        sheared.cosine = parts.cosine + (parts.cosine_rest + cosine);
     } else {
-        leant.sine = at.sine + sine;
-        leant.cosine = at.cosine + cosine;
+        sheared.sine = at.sine + sine;
+        sheared.cosine = at.cosine + cosine;
     }
-    return leant;
+    return sheared;
 }
 
-/* Computes the pairs at stage `stage`; gained[] as in wh_turning_leans(). If `far`, the shear angles may be large. */
+/* Computes the pairs at stage `stage`; gained[] as in wh_turning_shears(). If `far`, the shear angles may be large. */
 WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], bool far, wh_turning *t,
                                 wh_wave *pair) {
     const wh_shares *of = &to->by->stage[stage];
     const bool precise = to->compensated;
     wh_real of_angles[WH_COORDS];
-    wh_real lean[WH_WAVES];
-    const bool leans = wh_turning_leans(of, stage, gained, to->angles, of_angles);
-    if (leans) {
-        waves->rates(waves->model, to->h / of->parts, of_angles, lean);
+    wh_real shear[WH_WAVES];
+    const bool shears = wh_turning_shears(of, stage, gained, to->angles, of_angles);
+    if (shears) {
+        waves->rates(waves->model, to->h / of->parts, of_angles, shear);
     }
     wh_turning_to(waves, to->by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        pair[w] = !leans ? t->at[w]
-                  : far  ? wh_lean_far(t->at[w], t->parts[w], lean[w], precise)
-                         : wh_lean(t->at[w], t->parts[w], lean[w], precise);
+        pair[w] = !shears ? t->at[w]
+                  : far   ? wh_shear_far(t->at[w], t->parts[w], shear[w], precise)
+                          : wh_shear(t->at[w], t->parts[w], shear[w], precise);
     }
 }
 
@@ -269,16 +269,16 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     const wh_shares *of = &to->by->places->reach[stage];
     const bool precise = to->compensated;
     wh_real of_angles[WH_COORDS];
-    wh_real lean[WH_WAVES];
+    wh_real shear[WH_WAVES];
     WH_UNROLL
     for (unsigned i = 0; i < to->angles; i++) {
         of_angles[i] = wh_stage_sum(of->share, stage, accels, i);
     }
-    waves->rates(waves->model, to->h * to->h / of->parts, of_angles, lean);
+    waves->rates(waves->model, to->h * to->h / of->parts, of_angles, shear);
     wh_turning_to(waves, to->by->turns[stage], precise, t);
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
-        pair[w] = wh_lean(t->at[w], t->parts[w], lean[w], precise);
+        pair[w] = wh_shear(t->at[w], t->parts[w], shear[w], precise);
     }
 }
 

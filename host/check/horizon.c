@@ -82,11 +82,11 @@ static horizon_column judge(const step_doubling *t, int k, double tolerance) {
         made.verdict = HORIZON_ROUNDING;
         made.until_s = t->end_s;
     } else if (passed && t->unwrapped && made.until_s >= t->cut_s) {
-        made.verdict = HORIZON_NOT_TOLD;
+        made.verdict = HORIZON_UNKNOWN;
     } else if (passed) {
         made.verdict = HORIZON_UNTIL;
     } else if (few) {
-        made.verdict = HORIZON_NOT_TOLD;
+        made.verdict = HORIZON_UNKNOWN;
         made.until_s = 0.0;
     } else {
         made.verdict = range > 0.0 || made.off > 0.0 ? HORIZON_TO_THE_END : HORIZON_STILL;
@@ -104,7 +104,7 @@ horizon horizon_of(const step_doubling *t, double tolerance) {
                  .until_s = t->end_s};
     for (int k = 1; k < t->columns; k++) {
         h.column[k] = judge(t, k, tolerance);
-        if (h.column[k].verdict == HORIZON_UNTIL || h.column[k].verdict == HORIZON_NOT_TOLD) {
+        if (h.column[k].verdict == HORIZON_UNTIL || h.column[k].verdict == HORIZON_UNKNOWN) {
             h.to_the_end = false;
             if (h.first < 0 || h.column[k].until_s < h.until_s) {
                 h.first = k;
@@ -116,9 +116,9 @@ horizon horizon_of(const step_doubling *t, double tolerance) {
 }
 
 double horizon_trusted_s(const horizon *h) {
-    const bool untold = !h->to_the_end && (h->column[h->first].verdict == HORIZON_NOT_TOLD ||
-                                           h->of->aliased.column > 0);
-    return untold ? -1.0 : h->until_s;
+    const bool unknown = !h->to_the_end && (h->column[h->first].verdict == HORIZON_UNKNOWN ||
+                                            h->of->aliased.column > 0);
+    return unknown ? -1.0 : h->until_s;
 }
 
 void horizon_free(horizon *h) {
@@ -272,7 +272,7 @@ static void print_head(FILE *out, const horizon *h) {
 }
 
 /* Prints why the accuracy of this column is unknown. */
-static void say_untold(FILE *out, const horizon *h, int k) {
+static void say_unknown(FILE *out, const horizon *h, int k) {
     const horizon_column *c = &h->column[k];
     if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
         fprintf(out, "unknown after t = %.6g s: sine is computed only up to %g rad in double",
@@ -301,7 +301,7 @@ static void print_column(FILE *out, const horizon *h, int k) {
                 h->tolerance * c->range, unit, c->range, unit);
         break;
     case HORIZON_STILL: fputs("to the end      constant in this run", out); break;
-    case HORIZON_NOT_TOLD: say_untold(out, h, k); break;
+    case HORIZON_UNKNOWN: say_unknown(out, h, k); break;
     case HORIZON_ROUNDING:
         fprintf(out, "to the end      only round-off moves it, by %.2e %s",
                 number_most(c->off, c->range), unit);
@@ -363,8 +363,8 @@ static void say_until(FILE *out, const horizon *h, bool end) {
     const step_doubling *t = h->of;
     char name[NAME_SIZE];
     (void)name_of(h, h->first, name);
-    if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
-        say_untold(out, h, h->first);
+    if (h->column[h->first].verdict == HORIZON_UNKNOWN) {
+        say_unknown(out, h, h->first);
         fprintf(out, " (%s)", name);
         return;
     }
@@ -429,7 +429,7 @@ const char *const horizon_words[] = {[HORIZON_TO_THE_END] = "end",
                                      [HORIZON_UNTIL] = "until",
                                      [HORIZON_STILL] = "still",
                                      [HORIZON_ROUNDING] = "rounding",
-                                     [HORIZON_NOT_TOLD] = "untold"};
+                                     [HORIZON_UNKNOWN] = "unknown"};
 
 void horizon_write(FILE *out, const horizon *h) {
     char name[NAME_SIZE];

@@ -17,7 +17,7 @@ typedef enum horizon_verdict {
     HORIZON_UNTIL,    /* until_s */
     HORIZON_STILL,    /* the column is constant, so it is accurate to the end */
     HORIZON_ROUNDING, /* only round-off changes the column, so it counts as constant */
-    HORIZON_NOT_TOLD, /* unknown: too few digits in both runs, or an angle too large for a sine */
+    HORIZON_UNKNOWN,  /* unknown: too few digits in both runs, or an angle too large for a sine */
 } horizon_verdict;
 
 typedef struct horizon_column {
@@ -42,7 +42,7 @@ typedef struct horizon {
 horizon horizon_of(const step_doubling *t, double tolerance);
 /* False if only round-off moves column k, such as a column that symmetry keeps at zero: its error is meaningless. */
 bool horizon_moves(const step_doubling *t, int k);
-/* The run is accurate until this time, s; below 0: unknown (HORIZON_NOT_TOLD, or the steps alias). */
+/* The run is accurate until this time, s; below 0: unknown (HORIZON_UNKNOWN, or the steps alias). */
 double horizon_trusted_s(const horizon *h);
 void horizon_free(horizon *h);
 

@@ -11,7 +11,7 @@ blamed blamed_open(const image *im) {
     blamed b = {.image = im,
                 .state = alloc(im->count, sizeof *b.state),
                 .input = alloc(im->inputs, sizeof *b.input),
-                .value = alloc(im->blame.nodes, sizeof *b.value)};
+                .value = alloc(im->diagnostics.nodes, sizeof *b.value)};
     image_inputs(im, b.input);
     for (int i = 0; i < im->count; i++) {
         b.state[i] = alloc(im->unknown[i].order + 1, sizeof **b.state);
@@ -86,7 +86,7 @@ bool *blamed_parts(const image *im, int node) {
     of[node] = true;
     for (int i = node; i >= 0; i--) {
         int operand[2];
-        const int count = of[i] ? blamed_operands(&im->blame.node[i], operand) : 0;
+        const int count = of[i] ? blamed_operands(&im->diagnostics.node[i], operand) : 0;
         for (int k = 0; k < count; k++) {
             of[operand[k]] = true;
         }
@@ -127,17 +127,17 @@ static double sine_limit_rad(const nonfinite_at *at) {
 
 /* Is node i a sine outside the range of core/number/sine.h? In float the sine of a turn angle has no such range. */
 static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bool *turning) {
-    const diagnostics_node *n = &v->image->blame.node[i];
+    const diagnostics_node *n = &v->image->diagnostics.node[i];
     const double angle_rad = is_sine(n) ? v->value[n->a] : 0.0;
     const bool beyond = fabs(angle_rad) >= sine_limit_rad(at) && isfinite(angle_rad);
     return beyond && !(at->turns && turning[n->a]);
 }
 
-/* [blame.nodes]: true for nodes that depend on a turn angle. The caller frees it. */
+/* [diagnostics.nodes]: true for nodes that depend on a turn angle. The caller frees it. */
 static bool *nodes_that_turn(const image *im) {
-    bool *turning = alloc(im->blame.nodes, sizeof *turning);
-    for (int i = 0; i < im->blame.nodes; i++) {
-        const diagnostics_node *n = &im->blame.node[i];
+    bool *turning = alloc(im->diagnostics.nodes, sizeof *turning);
+    for (int i = 0; i < im->diagnostics.nodes; i++) {
+        const diagnostics_node *n = &im->diagnostics.node[i];
         int operand[2];
         const int count = blamed_operands(n, operand);
         for (int k = 0; k < count; k++) {
@@ -161,9 +161,9 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
         }
     }
     bool *turning = nodes_that_turn(im);
-    for (int i = 0; i < im->blame.nodes; i++) {
+    for (int i = 0; i < im->diagnostics.nodes; i++) {
         const bool unknown = sine_beyond(&v, i, at, turning);
-        v.value[i] = unknown ? (double)NAN : blamed_node(&v, &im->blame.node[i]);
+        v.value[i] = unknown ? (double)NAN : blamed_node(&v, &im->diagnostics.node[i]);
     }
     free(turning);
     return v;
@@ -178,7 +178,7 @@ static int innermost(const blamed *v, int node) {
     if (isfinite(v->value[node])) {
         return -1;
     }
-    const int count = blamed_operands(&v->image->blame.node[node], operand);
+    const int count = blamed_operands(&v->image->diagnostics.node[node], operand);
     for (int k = 0; k < count && part < 0; k++) {
         part = innermost(v, operand[k]);
     }
@@ -198,7 +198,7 @@ static void report(const nonfinite_at *at, place where, place part, const char *
 /* A hint for node i, the innermost one that is not finite. */
 static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     static char hint[200];
-    const diagnostics_node *n = &v->image->blame.node[i];
+    const diagnostics_node *n = &v->image->diagnostics.node[i];
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
     snprintf(
         hint, sizeof hint,
@@ -211,7 +211,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
 
 /* Reports the first expression that is not finite, of the `count` questions from `first` on. */
 static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
-    const image_blame *b = &v->image->blame;
+    const image_diagnostics *b = &v->image->diagnostics;
     for (int i = first; i < first + count; i++) {
         const diagnostics_question *q = &b->question[i];
         if (!isfinite(v->value[q->node])) {
@@ -240,11 +240,11 @@ static bool look_ahead(const nonfinite_at *at, int first, int count, diags *erro
 }
 
 bool nonfinite_term(const nonfinite_at *at, diags *errors) {
-    return look_ahead(at, 0, at->image->blame.terms, errors);
+    return look_ahead(at, 0, at->image->diagnostics.terms, errors);
 }
 
 bool nonfinite_set(const nonfinite_at *at, diags *errors) {
-    const image_blame *b = &at->image->blame;
+    const image_diagnostics *b = &at->image->diagnostics;
     return b->sets > 0 && look_ahead(at, b->terms, b->sets, errors);
 }
 

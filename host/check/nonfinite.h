@@ -6,13 +6,13 @@
 #include "host/engine/engine.h"
 
 /* === expressions at one state ================================================================= */
-/* The expressions of a file (image_blame in host/image/image.h) at one state, node by node. */
+/* The expressions of a file (image_diagnostics in host/image/image.h) at one state, node by node. */
 
 typedef struct blamed {
     const image *image;
     double **state; /* [unknowns][order + 1] value, rate, ... */
     double *input;  /* [inputs] values at the start */
-    double *value;  /* [blame.nodes] */
+    double *value;  /* [diagnostics.nodes] */
 } blamed;
 
 blamed blamed_open(const image *im);

@@ -347,7 +347,7 @@ int pole_on(const pole_way *w) {
  * such as a rate recovered from a momentum, are not tested. */
 
 typedef struct divisor {
-    int node;      /* of image_blame; if `derived`, an operation of IMAGE_BOOKS */
+    int node;      /* of image_diagnostics; if `derived`, an operation of IMAGE_BOOKS */
     bool of_a_tan; /* the divisor is the cosine of a tangent's argument */
     bool derived;
     bool leaps;    /* an event may change the value abruptly */
@@ -414,8 +414,8 @@ static bool bends(const denominators *d, const diagnostics_node *n, const int *o
 
 static void find_what_moves(denominators *d) {
     const image *im = d->at.image;
-    for (int i = 0; i < im->blame.nodes; i++) {
-        const diagnostics_node *n = &im->blame.node[i];
+    for (int i = 0; i < im->diagnostics.nodes; i++) {
+        const diagnostics_node *n = &im->diagnostics.node[i];
         int of[2];
         const int count = blamed_operands(n, of);
         unsigned is = moves_of(im, n);
@@ -437,8 +437,8 @@ static bool is_size_or_root(const diagnostics_node *n) {
 /* Splits divisors into their factors. Starts at the last node, because operands precede their results. */
 static void find_factors(denominators *d) {
     const image *im = d->at.image;
-    for (int i = im->blame.nodes - 1; i >= 0; i--) {
-        const diagnostics_node *n = &im->blame.node[i];
+    for (int i = im->diagnostics.nodes - 1; i >= 0; i--) {
+        const diagnostics_node *n = &im->diagnostics.node[i];
         const unsigned is = d->is[i];
         if (n->code == DIAGNOSTICS_DIV) {
             mark(d, n->b, DIVIDES);
@@ -465,7 +465,7 @@ static void find_factors(denominators *d) {
 }
 
 static void find_order(denominators *d) {
-    const image_blame *b = &d->at.image->blame;
+    const image_diagnostics *b = &d->at.image->diagnostics;
     for (int i = b->nodes - 1; i >= 0; i--) {
         const unsigned as = (d->is[i] & (MOVES | HIDDEN)) == MOVES ? d->is[i] : 0U;
         const bool watched = (as & (DIVIDES | OF_A_TAN)) != 0;
@@ -496,8 +496,8 @@ static void find_order(denominators *d) {
 /* Collects the expressions that may grow: energies, losses, forces, equations, their slopes, and normal forces. */
 static void find_questions(denominators *d) {
     const image *im = d->at.image;
-    d->asked = alloc(im->blame.questions, sizeof *d->asked);
-    for (int i = 0; i < im->blame.terms; i++) {
+    d->asked = alloc(im->diagnostics.questions, sizeof *d->asked);
+    for (int i = 0; i < im->diagnostics.terms; i++) {
         d->asked[d->questions++] = i;
     }
     for (int c = 0; c < im->contacts; c++) {
@@ -511,8 +511,8 @@ static void find_questions(denominators *d) {
 /* Does a highest derivative of a system have a moving factor, so that the slope is divided by it? */
 static bool has_factors_that_move(const denominators *d) {
     const image *im = d->at.image;
-    for (int i = 0; i < im->blame.nodes && !im->has_energies; i++) {
-        const diagnostics_node *n = &im->blame.node[i];
+    for (int i = 0; i < im->diagnostics.nodes && !im->has_energies; i++) {
+        const diagnostics_node *n = &im->diagnostics.node[i];
         const bool factor = n->code == DIAGNOSTICS_MUL || n->code == DIAGNOSTICS_DIV;
         if (factor && (d->is[i] & HIDDEN) != 0 && (d->is[n->a] & MOVES) != 0 &&
             (d->is[n->b] & MOVES) != 0) {
@@ -546,7 +546,7 @@ static void find_derived(denominators *d) {
 /* --- at a state ---------------------------------------------------------------------------------------*/
 
 static denominators denominators_open(const image *im) {
-    const int nodes = im->blame.nodes;
+    const int nodes = im->diagnostics.nodes;
     denominators d = {
         .at = blamed_open(im),
         .is = alloc(nodes, sizeof *d.is),
@@ -582,7 +582,7 @@ static void denominators_see(denominators *d, const double *state) {
     blamed_place(&d->at, state, state + im->angles);
     engine_operations += (uint64_t)(d->ordered + d->count);
     for (int i = 0; i < d->ordered; i++) {
-        d->at.value[d->order[i]] = blamed_node(&d->at, &im->blame.node[d->order[i]]);
+        d->at.value[d->order[i]] = blamed_node(&d->at, &im->diagnostics.node[d->order[i]]);
     }
     if (d->field != NULL) {
         vector_field_slope(d->field, state, d->slope);
@@ -592,14 +592,14 @@ static void denominators_see(denominators *d, const double *state) {
 static void denominators_see_all(denominators *d, const double *state, double *value) {
     const image *im = d->at.image;
     blamed_place(&d->at, state, state + im->angles);
-    engine_operations += (uint64_t)im->blame.nodes;
-    for (int i = 0; i < im->blame.nodes; i++) {
+    engine_operations += (uint64_t)im->diagnostics.nodes;
+    for (int i = 0; i < im->diagnostics.nodes; i++) {
         if ((d->is[i] & MOVES) != 0) {
-            d->at.value[i] = blamed_node(&d->at, &im->blame.node[i]);
+            d->at.value[i] = blamed_node(&d->at, &im->diagnostics.node[i]);
         }
     }
     for (int i = 0; i < d->questions; i++) {
-        value[i] = d->at.value[im->blame.question[d->asked[i]].node];
+        value[i] = d->at.value[im->diagnostics.question[d->asked[i]].node];
     }
     if (d->field != NULL) {
         vector_field_slope(d->field, state, value + d->questions);
@@ -623,7 +623,7 @@ static bool has_highest(const image *im, int node, int unknown) {
     bool *of = blamed_parts(im, node);
     bool has = false;
     for (int i = 0; i <= node && !has; i++) {
-        const diagnostics_node *n = &im->blame.node[i];
+        const diagnostics_node *n = &im->diagnostics.node[i];
         has = of[i] && n->code == DIAGNOSTICS_STATE && n->a == unknown &&
               n->b == im->unknown[unknown].order;
     }
@@ -638,8 +638,8 @@ static int denominators_question(const denominators *d, int value) {
         return d->asked[value];
     }
     const int unknown = image_component(im, value - d->questions).unknown;
-    for (int i = 0; i < im->blame.terms; i++) {
-        if (has_highest(im, im->blame.question[i].node, unknown)) {
+    for (int i = 0; i < im->diagnostics.terms; i++) {
+        if (has_highest(im, im->diagnostics.question[i].node, unknown)) {
             return i;
         }
     }
@@ -740,7 +740,7 @@ static double relative_way(const pole_crossing *j, const divisor *d) {
     }
     bool *of = blamed_parts(j->image, d->node);
     for (int i = 0; i <= d->node; i++) {
-        const diagnostics_node *n = &j->image->blame.node[i];
+        const diagnostics_node *n = &j->image->diagnostics.node[i];
         if (of[i] && n->code == DIAGNOSTICS_STATE) {
             most =
                 number_most(most, relative_way_of(j, image_find_component(j->image, n->a, n->b)));
@@ -847,5 +847,5 @@ missed_found pole_crossing_through(const pole_crossing *j, double *begin_s) {
 
 const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s) {
     *begin_s = j->found_s;
-    return &j->image->blame.question[j->found];
+    return &j->image->diagnostics.question[j->found];
 }

@@ -93,7 +93,7 @@ typedef struct sought {
     const char *name; /* name of a scene or a mechanism */
 } sought;
 
-static sought wish_of(const char *target) {
+static sought sought_of(const char *target) {
     const char *colon = strrchr(target, ':');
     return colon == NULL ? (sought){NULL, 0, target}
                          : (sought){target, (size_t)(colon - target), colon + 1};
@@ -170,7 +170,7 @@ bool source_builtin(source_model *s, const struct builtin_model *model) {
 
 int source_find(source_model *s, const struct builtin_model *models, size_t count,
                 const char *target) {
-    const sought w = wish_of(target);
+    const sought w = sought_of(target);
     source_model *each = alloc((int64_t)count, sizeof *each);
     size_t hits = 0;
     size_t hit = 0;

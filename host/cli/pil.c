@@ -173,7 +173,7 @@ static bool is_known_board(pil_options *o) {
                           (int)(sizeof boards / sizeof boards[0])) >= 0;
 }
 
-static lockstep_request wish_of(const pil_options *o) {
+static lockstep_request request_of(const pil_options *o) {
     return (lockstep_request){.guest = {.image = o->firmware,
                                         .board = o->machine[0] != '\0' ? o->machine
                                                  : o->board != NULL    ? o->board
@@ -289,7 +289,7 @@ static int load_plant(pil_options *o, source_model *from, const mechanism *of, c
 static int run_source(pil_options *o, source_model *from) {
     const mechanism *of;
     const scene *in;
-    lockstep_request request = wish_of(o);
+    lockstep_request request = request_of(o);
     double every_s;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
@@ -316,7 +316,7 @@ static int run_source(pil_options *o, source_model *from) {
 }
 
 static int replay(const pil_options *o) {
-    lockstep_request request = wish_of(o);
+    lockstep_request request = request_of(o);
     lockstep_report report;
     port line;
     if (!open_line(o, &request, &line)) {

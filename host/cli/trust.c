@@ -38,7 +38,7 @@ static const command_usage usage = {
         "                       (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate: name, unit, verdict, trusted time,\n"
         "                       range, largest error. Verdicts: end, until, still (a constant "
-        "value),\n                       rounding (only round-off changes it), untold"
+        "value),\n                       rounding (only round-off changes it), unknown"
         " (unknown: double has too few\n"
         "                       digits). - is standard output; the report then goes to standard "
         "error.\n"

@@ -26,7 +26,7 @@ typedef struct maker {
 } maker;
 
 static int enter(maker *k, diagnostics_node node) {
-    image_blame *b = &k->made->blame;
+    image_diagnostics *b = &k->made->diagnostics;
     b->node = arena_room(k->made->memory, b->node, b->nodes, sizeof *b->node);
     b->node[b->nodes] = node;
     return b->nodes++;
@@ -93,7 +93,7 @@ static int of_expr(maker *k, const expr *tree) {
         const int b = tree->right != NULL ? of_expr(k, tree->right) : -1;
         node = enter_op(k, codes[tree->op], tree->function, a, b);
     }
-    k->made->blame.node[node].at = image_place(k->draft, tree->at);
+    k->made->diagnostics.node[node].at = image_place(k->draft, tree->at);
     return node;
 }
 
@@ -182,7 +182,7 @@ static bool has_slopes(const poly *p) {
 }
 
 static void ask(maker *k, place where, int node, bool derived, const char *what) {
-    image_blame *b = &k->made->blame;
+    image_diagnostics *b = &k->made->diagnostics;
     b->question = arena_room(k->made->memory, b->question, b->questions, sizeof *b->question);
     b->question[b->questions++] = (diagnostics_question){
         .node = node, .derived = derived, .what = image_text(k->draft, what), .where = where};
@@ -226,7 +226,7 @@ static void ask_term(maker *k, const term *t) {
 }
 
 static void ask_contact(maker *k, const contact_statement *h, image_contact *row) {
-    const image_blame *b = &k->made->blame;
+    const image_diagnostics *b = &k->made->diagnostics;
     const place where = row->at;
     row->first_question = b->questions;
     switch (h->kind) {
@@ -267,7 +267,7 @@ static void ask_all(maker *k) {
             ask_term(k, &m->terms[i]);
         }
     }
-    im->blame.terms = im->blame.questions;
+    im->diagnostics.terms = im->diagnostics.questions;
     for (int c = 0; c < im->contacts; c++) {
         const contact_statement *h = e->contacts->law[c].from;
         for (int i = 0; i < h->set_count && h->kind == CONTACT_WHEN; i++) {
@@ -275,7 +275,7 @@ static void ask_all(maker *k) {
                       "the value that is set");
         }
     }
-    im->blame.sets = im->blame.questions - im->blame.terms;
+    im->diagnostics.sets = im->diagnostics.questions - im->diagnostics.terms;
     for (int c = 0; c < im->contacts; c++) {
         ask_contact(k, e->contacts->law[c].from, &im->contact[c]);
     }

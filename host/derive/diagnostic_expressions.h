@@ -1,4 +1,4 @@
-/* diagnostic_expressions.h: the expressions that may be undefined, for messages (image_blame in host/image/image.h). */
+/* diagnostic_expressions.h: the expressions that may be undefined, for messages (image_diagnostics in host/image/image.h). */
 #ifndef DERIVE_DIAGNOSTIC_EXPRESSIONS_H
 #define DERIVE_DIAGNOSTIC_EXPRESSIONS_H
 

@@ -28,7 +28,7 @@ static int column_of(const image *im, const op *o) {
     return affine_states(im) + o->a;
 }
 
-static bool is_constant(const twofold *c, int columns) {
+static bool is_constant(const double_double *c, int columns) {
     bool constant = true;
     for (int i = 0; i < columns - 1; i++) {
         constant = constant && double_double_is_zero(c[i]);
@@ -36,29 +36,30 @@ static bool is_constant(const twofold *c, int columns) {
     return constant;
 }
 
-static twofold sum(twofold a, twofold b) {
-    const twofold both = double_double_add(a, b);
+static double_double sum(double_double a, double_double b) {
+    const double_double both = double_double_add(a, b);
     return folding_cancels(both.high, fabs(a.high) + fabs(b.high), GHOST) ? double_double_of(0.0)
                                                                           : both;
 }
 
-static void add(const twofold *a, const twofold *b, double sign, int columns, twofold *to) {
+static void add(const double_double *a, const double_double *b, double sign, int columns,
+                double_double *to) {
     for (int i = 0; i < columns; i++) {
         to[i] = sum(a[i], double_double_scale(b[i], sign));
     }
 }
 
-static void multiply(const twofold *a, twofold factor, int columns, twofold *to) {
+static void multiply(const double_double *a, double_double factor, int columns, double_double *to) {
     for (int i = 0; i < columns; i++) {
         to[i] = double_double_mul(a[i], factor);
     }
 }
 
 /* Computes the coefficients of operation `o` from those of its operands. Returns false if `o` is not affine. */
-static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
+static bool step(const image *im, const op *o, const double_double *all, double_double *to) {
     const int columns = affine_columns(im);
-    const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
-    const twofold *b = all + (ptrdiff_t)(o->b >= 0 ? o->b : 0) * columns;
+    const double_double *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
+    const double_double *b = all + (ptrdiff_t)(o->b >= 0 ? o->b : 0) * columns;
     const int last = columns - 1;
     switch (o->code) {
     case OP_CONSTANT: to[last] = double_double_of(o->value); return true;
@@ -106,11 +107,11 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
     return false;
 }
 
-bool affine_rates(const image *im, twofold *rates) {
+bool affine_rates(const image *im, double_double *rates) {
     const op_list *t = im->list[IMAGE_STEP];
     const int columns = affine_columns(im);
     const size_t row = (size_t)columns * sizeof *rates;
-    twofold *all = alloc((int64_t)t->count * columns, sizeof *all);
+    double_double *all = alloc((int64_t)t->count * columns, sizeof *all);
     bool affine = true;
     for (int i = 0; i < t->count && affine; i++) {
         affine = step(im, &t->ops[i], all, all + (ptrdiff_t)i * columns);
@@ -198,10 +199,11 @@ enum { HALVINGS_MOST = 50 };
 enum { POWERS = 26 };
 
 /* Computes to = a * b, with the first `states` columns of `a`; `b` has as many columns as `to`. */
-static void product(const twofold *a, const twofold *b, int states, int columns, twofold *to) {
+static void product(const double_double *a, const double_double *b, int states, int columns,
+                    double_double *to) {
     for (int i = 0; i < states; i++) {
         for (int k = 0; k < columns; k++) {
-            twofold sum = double_double_of(0.0);
+            double_double sum = double_double_of(0.0);
             for (int j = 0; j < states; j++) {
                 sum = double_double_add(sum,
                                         double_double_mul(a[i * columns + j], b[j * columns + k]));
@@ -213,11 +215,11 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
 
 /* As exponential_exact(), but without scaling, and with a series up to the power `order`. Every Runge-Kutta method with
  * that order and as many stages gives this result. */
-static void exponential_series(twofold *step, int states, int columns, int order) {
+static void exponential_series(double_double *step, int states, int columns, int order) {
     const int count = states * columns;
-    twofold *power = alloc(count, sizeof *power);
-    twofold *next = alloc(count, sizeof *next);
-    twofold *of = alloc(count, sizeof *of);
+    double_double *power = alloc(count, sizeof *power);
+    double_double *next = alloc(count, sizeof *next);
+    double_double *of = alloc(count, sizeof *of);
     memcpy(of, step, (size_t)count * sizeof *of);
     memcpy(power, step, (size_t)count * sizeof *power);
     for (int k = 2; k <= order; k++) {
@@ -232,7 +234,7 @@ static void exponential_series(twofold *step, int states, int columns, int order
     free(of);
 }
 
-static double norm(const twofold *a, int states, int columns) {
+static double norm(const double_double *a, int states, int columns) {
     double most = 0.0;
     for (int i = 0; i < states; i++) {
         double sum = 0.0;
@@ -245,7 +247,7 @@ static double norm(const twofold *a, int states, int columns) {
 }
 
 /* The sum of the absolute values in row i of A (`row`), or in column i, without the diagonal. */
-static double off_diagonal(const twofold *a, int i, bool row, int states, int columns) {
+static double off_diagonal(const double_double *a, int i, bool row, int states, int columns) {
     double sum = 0.0;
     for (int j = 0; j < states; j++) {
         sum += j == i ? 0.0 : fabs(a[row ? i * columns + j : j * columns + i].high);
@@ -254,7 +256,7 @@ static double off_diagonal(const twofold *a, int i, bool row, int states, int co
 }
 
 /* Changes the unit of state i to one that is `by` times as large. */
-static void in_units(twofold *a, int i, double by, int states, int columns) {
+static void in_units(double_double *a, int i, double by, int states, int columns) {
     for (int j = 0; j < columns; j++) {
         a[i * columns + j] = double_double_scale(a[i * columns + j], 1.0 / by);
     }
@@ -265,7 +267,7 @@ static void in_units(twofold *a, int i, double by, int states, int columns) {
 
 /* Balances A by powers of two, so that corresponding rows and columns have similar sizes (Parlett & Reinsch, Numerische
  * Mathematik 13 (1969) 293). Otherwise a stiffness of 1e9 N/m next to a rate of 1e-3 m/s would need many halvings. */
-static void balance(twofold *a, double *unit, int states, int columns) {
+static void balance(double_double *a, double *unit, int states, int columns) {
     for (int i = 0; i < states; i++) {
         unit[i] = 1.0;
     }
@@ -290,7 +292,7 @@ static void balance(twofold *a, double *unit, int states, int columns) {
  * masses in a row contributes 1e-60 to the first one's motion within a millisecond, below the range of float. */
 #define LEAST_PART 0x1p-100
 
-static void drop_least(twofold *step, int states, int columns) {
+static void drop_least(double_double *step, int states, int columns) {
     for (int i = 0; i < states; i++) {
         double most = 0.0;
         for (int j = 0; j < states; j++) {
@@ -309,10 +311,10 @@ static void drop_least(twofold *step, int states, int columns) {
  * its lower rows: the change of the states in one step. A is balanced, then the exponential minus one is scaled and
  * squared, which keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential
  * of a Matrix, method 3). Returns false if so many halvings are needed that digits are lost; step[] is then invalid. */
-static bool exponential_exact(twofold *step, int states, int columns) {
+static bool exponential_exact(double_double *step, int states, int columns) {
     const int count = states * columns;
     double *unit = alloc(states, sizeof *unit);
-    twofold *square = alloc(count, sizeof *square);
+    double_double *square = alloc(count, sizeof *square);
     int halvings = 0;
     balance(step, unit, states, columns);
     double size = norm(step, states, columns);
@@ -386,8 +388,8 @@ static int leaf(const image *im, op_list *t, int column) {
 }
 
 /* Enters the sum of a row's entries, rounded by constant(), times their columns. */
-static int enter_row(const image *im, op_list *t, const twofold *row,
-                     double (*constant)(twofold entry)) {
+static int enter_row(const image *im, op_list *t, const double_double *row,
+                     double (*constant)(double_double entry)) {
     int sum = op_list_constant(t, 0.0);
     for (int k = 0; k < affine_columns(im); k++) {
         const double entry = constant(row[k]);
@@ -399,7 +401,7 @@ static int enter_row(const image *im, op_list *t, const twofold *row,
 }
 
 /* Enters a row after adding 1 to its entry in column `of`. If the sum is near 1, only its difference from 1 is rounded. */
-static int enter_near(const image *im, op_list *t, twofold *row, int of) {
+static int enter_near(const image *im, op_list *t, double_double *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = double_double_add(row[of], double_double_of(1.0));
         return enter_row(im, t, row, double_double_constant);
@@ -408,14 +410,14 @@ static int enter_near(const image *im, op_list *t, twofold *row, int of) {
 }
 
 /* The part of an entry beyond a float's digits; 0 if a float cannot represent that part. */
-static double rest(twofold entry) {
+static double rest(double_double entry) {
     const double beyond = double_double_beyond_float(entry);
     return fits_float(beyond) ? beyond : 0.0;
 }
 
 /* Enters the mean rate (in second order nearly the rate) of turn angle i over a step of length h, from its change
  * row[]. */
-static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold h) {
+static int enter_angle(const image *im, op_list *t, double_double *row, int i, double_double h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);
     }
@@ -428,12 +430,12 @@ static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold
 }
 
 /* Returns the list of a step. `change`, the changes in a step of length h, is overwritten. */
-static op_list *make_list(const image *im, twofold *change, twofold h) {
+static op_list *make_list(const image *im, double_double *change, double_double h) {
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;
     op_list *t = op_list_new(im->angles, states + (compensated ? im->reals : 0));
     for (int i = 0; i < states; i++) {
-        twofold *row = change + (ptrdiff_t)i * affine_columns(im);
+        double_double *row = change + (ptrdiff_t)i * affine_columns(im);
         if (i < im->angles) {
             t->result[i] = enter_angle(im, t, row, i, h);
         } else if (compensated) {
@@ -448,7 +450,7 @@ static op_list *make_list(const image *im, twofold *change, twofold h) {
     return t;
 }
 
-static void keep_numbers(image_draft *d, const twofold *change) {
+static void keep_numbers(image_draft *d, const double_double *change) {
     image *im = d->made;
     image_matrix *m = &im->matrix;
     m->states = affine_states(im);
@@ -456,7 +458,7 @@ static void keep_numbers(image_draft *d, const twofold *change) {
     m->entry = image_room(d, m->states * m->columns, sizeof *m->entry);
     for (int i = 0; i < m->states; i++) {
         for (int k = 0; k < m->columns; k++) {
-            const twofold entry = change[i * m->columns + k];
+            const double_double entry = change[i * m->columns + k];
             m->entry[i * m->columns + k] =
                 k == i ? double_double_add(entry, double_double_of(1.0)).high : entry.high;
         }
@@ -464,13 +466,13 @@ static void keep_numbers(image_draft *d, const twofold *change) {
 }
 
 /* On entry, change[] has the rates. */
-static bool make(image_draft *d, twofold *change, diags *errors) {
+static bool make(image_draft *d, double_double *change, diags *errors) {
     image *im = d->made;
     const int states = affine_states(im);
     const int columns = affine_columns(im);
-    const twofold h = im->step.denominator != 0
-                          ? double_double_ratio(im->step.numerator, im->step.denominator)
-                          : double_double_of(im->step_s);
+    const double_double h = im->step.denominator != 0
+                                ? double_double_ratio(im->step.numerator, im->step.denominator)
+                                : double_double_of(im->step_s);
     bool good = true;
     for (int i = 0; i < states * columns; i++) {
         change[i] = double_double_mul(change[i], h);
@@ -500,7 +502,7 @@ bool matrix_make(image_draft *d, const equations *e, diags *errors) {
     if (!is_possible(im, errors)) {
         return false;
     }
-    twofold *change = alloc((int64_t)affine_states(im) * affine_columns(im), sizeof *change);
+    double_double *change = alloc((int64_t)affine_states(im) * affine_columns(im), sizeof *change);
     const bool affine = affine_rates(im, change);
     const bool good = affine && make(d, change, errors);
     if (!affine) {

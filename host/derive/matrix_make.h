@@ -14,7 +14,7 @@ int affine_columns(const image *im);
 
 /* Computes rates[states * columns], the coefficients of the states' rates, by rows. The list is evaluated on
  * coefficients, so the round-off is that of the list. If it is not affine, returns false, without rates[]. */
-bool affine_rates(const image *im, twofold *rates);
+bool affine_rates(const image *im, double_double *rates);
 
 /* Makes the matrix and its list, as the settings of the otherwise complete image require. Returns false (reported) if
  * there is none, because of events, a ledger, another method, a nonlinear term, or numbers that grow too large. `e`

@@ -33,7 +33,7 @@ static const char words_of_cpp[] =
 
 /* Objects and functions of a generated file. Local variables may have the scene's name, because it is declared last. */
 static const char own[] =
-    "main accelerations slopes step_matrix one_step advance ahead observe start_angle start_real "
+    "main accelerations slopes step_matrix one_step advance multi_step observe start_angle start_real "
     "start_input contacts contact_signals contact_forces contact_sets contact_table "
     "contact_target ledger ledger_powers ledger_levels ledger_accounts ledger_inputs waves "
     "wave_sines wave_rates "
@@ -453,12 +453,13 @@ static void write_scene(FILE *out, const image *im) {
     fprintf(out, "    .start_real = %s,\n", im->reals > 0 ? "start_real" : "NULL");
     fprintf(out, "    .start_input = %s,\n", im->inputs > 0 ? "start_input" : "NULL");
     fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n", im->hash);
-    fprintf(out,
-            "    .advance = advance,\n%s    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
-            has_multi_step(im)
-                ? "#if defined(WH_MULTI_STEP) && WH_MULTI_STEP\n    .ahead = ahead,\n#endif\n"
-                : "",
-            im->outputs > 0 ? "observe" : "NULL");
+    fprintf(
+        out,
+        "    .advance = advance,\n%s    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
+        has_multi_step(im)
+            ? "#if defined(WH_MULTI_STEP) && WH_MULTI_STEP\n    .multi_step = multi_step,\n#endif\n"
+            : "",
+        im->outputs > 0 ? "observe" : "NULL");
 }
 
 /* The list that a step computes: the matrix, or each stage's right-hand side. */
@@ -571,12 +572,13 @@ static void write_advance(FILE *out, const image *im) {
                 im->drives, books, im->drives, books);
     }
     if (has_multi_step(im)) {
-        fprintf(out,
-                "#if defined(WH_MULTI_STEP) && WH_MULTI_STEP\n"
-                "static wh_status ahead(const wh_scene *scene, wh_state *state, uint32_t steps) {\n"
-                "    return wh_multi_step(scene, one_step, %dU, %dU, %s, state, steps);\n"
-                "}\n#endif\n\n",
-                im->angles, im->reals, im->settings.compensated ? "true" : "false");
+        fprintf(
+            out,
+            "#if defined(WH_MULTI_STEP) && WH_MULTI_STEP\n"
+            "static wh_status multi_step(const wh_scene *scene, wh_state *state, uint32_t steps) {\n"
+            "    return wh_multi_step(scene, one_step, %dU, %dU, %s, state, steps);\n"
+            "}\n#endif\n\n",
+            im->angles, im->reals, im->settings.compensated ? "true" : "false");
     }
 }
 

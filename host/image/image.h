@@ -166,7 +166,7 @@ typedef struct image_contact {
     int sets;
     const char *unit; /* SI, of a stop's gap; "1" for other kinds */
     place at;
-    /* indices of blame.question: expressions that may be undefined; then those evaluated only at an impact */
+    /* indices of diagnostics.question: expressions that may be undefined; then those evaluated only at an impact */
     int first_question, questions;
     int first_late, late;
 } image_contact;
@@ -233,14 +233,14 @@ typedef struct diagnostics_question {
     place where;
 } diagnostics_question;
 
-typedef struct image_blame {
+typedef struct image_diagnostics {
     diagnostics_node *node; /* [nodes] */
     int nodes;
     diagnostics_question *question; /* [questions] of terms first, then of sets, then of contacts */
     int questions;
     int terms; /* number of energies, losses, forces, equations, and their derivatives */
     int sets;  /* number of values that crossings set */
-} image_blame;
+} image_diagnostics;
 
 /* x+ = Phi x + Gamma u + g, in SI units and radians: rows: states, angles first; columns: states, inputs, 1 */
 typedef struct image_matrix {
@@ -315,7 +315,7 @@ typedef struct image {
     int set_count; /* values that crossings set */
     int *target;   /* [set_count] component of the state, angles first */
     image_ledger ledger;
-    image_blame blame; /* empty unless requested */
+    image_diagnostics diagnostics; /* empty unless requested */
 
     image_matrix matrix; /* empty unless settings.matrix requests one */
 

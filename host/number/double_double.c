@@ -6,56 +6,59 @@
 
 #include "core/number/two_part.h"
 
-static twofold two_product(double a, double b) { return (twofold){a * b, wh_product_rest(a, b)}; }
+static double_double two_product(double a, double b) {
+    return (double_double){a * b, wh_product_rest(a, b)};
+}
 
-twofold double_double_of(double value) { return (twofold){value, 0.0}; }
+double_double double_double_of(double value) { return (double_double){value, 0.0}; }
 
-static twofold of_whole(uint64_t value) {
+static double_double of_whole(uint64_t value) {
     return wh_pair_sum((double)(value >> 32) * 4294967296.0, (double)(uint32_t)value);
 }
 
-twofold double_double_ratio(uint64_t numerator, uint64_t denominator) {
+double_double double_double_ratio(uint64_t numerator, uint64_t denominator) {
     return double_double_div(of_whole(numerator), of_whole(denominator));
 }
 
-static twofold double_double_neg(twofold a) { return (twofold){-a.high, -a.low}; }
+static double_double double_double_neg(double_double a) { return (double_double){-a.high, -a.low}; }
 
-twofold double_double_scale(twofold a, double power_of_two) {
-    return (twofold){a.high * power_of_two, a.low * power_of_two};
+double_double double_double_scale(double_double a, double power_of_two) {
+    return (double_double){a.high * power_of_two, a.low * power_of_two};
 }
 
-twofold double_double_add(twofold a, twofold b) {
-    twofold high = wh_pair_sum(a.high, b.high);
-    const twofold low = wh_pair_sum(a.low, b.low);
+double_double double_double_add(double_double a, double_double b) {
+    double_double high = wh_pair_sum(a.high, b.high);
+    const double_double low = wh_pair_sum(a.low, b.low);
     high = wh_pair_of(high.high, high.low + low.high);
     return wh_pair_of(high.high, high.low + low.low);
 }
 
-twofold double_double_sub(twofold a, twofold b) {
+double_double double_double_sub(double_double a, double_double b) {
     return double_double_add(a, double_double_neg(b));
 }
 
-twofold double_double_mul(twofold a, twofold b) {
+double_double double_double_mul(double_double a, double_double b) {
     if (double_double_is_zero(a) || double_double_is_zero(b)) {
         return double_double_of(0.0);
     }
-    const twofold product = two_product(a.high, b.high);
+    const double_double product = two_product(a.high, b.high);
     return wh_pair_of(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
-twofold double_double_div(twofold a, twofold b) {
+double_double double_double_div(double_double a, double_double b) {
     const double first = a.high / b.high;
-    const twofold left = double_double_sub(a, double_double_mul(b, double_double_of(first)));
+    const double_double left = double_double_sub(a, double_double_mul(b, double_double_of(first)));
     const double second = left.high / b.high;
-    const twofold rest = double_double_sub(left, double_double_mul(b, double_double_of(second)));
-    const twofold quotient = wh_pair_of(first, second);
+    const double_double rest =
+        double_double_sub(left, double_double_mul(b, double_double_of(second)));
+    const double_double quotient = wh_pair_of(first, second);
     return double_double_add(quotient, double_double_of(rest.high / b.high));
 }
 
-bool double_double_is_zero(twofold a) { return a.high == 0.0; }
-bool double_double_is_finite(twofold a) { return isfinite(a.high) && isfinite(a.low); }
+bool double_double_is_zero(double_double a) { return a.high == 0.0; }
+bool double_double_is_finite(double_double a) { return isfinite(a.high) && isfinite(a.low); }
 
-double double_double_constant(twofold a) {
+double double_double_constant(double_double a) {
     static const uint64_t beyond_float = (UINT64_C(1) << 29) - 1; /* the 29 bits that float lacks */
     uint64_t bits;
     double nearest;
@@ -67,7 +70,7 @@ double double_double_constant(twofold a) {
     return nearest;
 }
 
-double double_double_beyond_float(twofold a) {
+double double_double_beyond_float(double_double a) {
     const float nearest = (float)double_double_constant(a);
     return double_double_sub(a, double_double_of((double)nearest)).high;
 }

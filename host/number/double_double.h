@@ -10,28 +10,28 @@
 #include "core/function_double.h"
 
 /* `high` is the double nearest to the sum, `low` the remainder. */
-typedef wh_pair twofold;
+typedef wh_pair double_double;
 
-twofold double_double_of(double value);
-twofold double_double_ratio(uint64_t numerator, uint64_t denominator);
+double_double double_double_of(double value);
+double_double double_double_ratio(uint64_t numerator, uint64_t denominator);
 
 /* Sum, difference, product and quotient have a relative error of a few times 2^-104 for normal numbers below about
  * 2^990. For larger numbers the result is not finite; for subnormal ones it has only the digits of a double. */
-twofold double_double_add(twofold a, twofold b);
-twofold double_double_sub(twofold a, twofold b);
-twofold double_double_mul(twofold a, twofold b);
-twofold double_double_div(twofold a, twofold b);
+double_double double_double_add(double_double a, double_double b);
+double_double double_double_sub(double_double a, double_double b);
+double_double double_double_mul(double_double a, double_double b);
+double_double double_double_div(double_double a, double_double b);
 /* `a` times a power of two, exactly. */
-twofold double_double_scale(twofold a, double power_of_two);
+double_double double_double_scale(double_double a, double power_of_two);
 
-bool double_double_is_zero(twofold a);
-bool double_double_is_finite(twofold a);
+bool double_double_is_zero(double_double a);
+bool double_double_is_finite(double_double a);
 
 /* Returns the double nearest to `a`. If that double is the midpoint of two floats, and `a` is not, returns the next
  * double on the side of `a`. So (float) of the result is the float nearest to `a`, as after a single rounding. */
-double double_double_constant(twofold a);
+double double_double_constant(double_double a);
 
 /* `a` minus the float nearest to `a`, as a double. */
-double double_double_beyond_float(twofold a);
+double double_double_beyond_float(double_double a);
 
 #endif

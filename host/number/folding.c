@@ -62,7 +62,7 @@ static double moved(double x, int by) {
 
 /* Returns the double nearest to the exact value, moved by moved_by() if it is inexact. FOLDING_OTHER moves by two
  * doubles, past the exact value, because several round-offs may add up to that much. */
-static double other_neighbour(twofold exact, double x, double y) {
+static double other_neighbour(double_double exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
     }

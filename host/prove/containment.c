@@ -134,7 +134,7 @@ static void look(containment_found *h, const double *value, const enclosure *exa
         } else {
             s->open = false;
             s->verdict = off.low > s->within || off.high < -s->within ? CONTAINMENT_LEFT
-                                                                      : CONTAINMENT_UNTOLD;
+                                                                      : CONTAINMENT_UNDECIDED;
         }
     }
 }
@@ -321,7 +321,7 @@ static const char *behind(const containment_found *h, const containment_state *s
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return "";
     case CONTAINMENT_LEFT: return "; proved: error too large after that";
-    case CONTAINMENT_UNTOLD: return "; after that the tube is too wide to decide";
+    case CONTAINMENT_UNDECIDED: return "; after that the tube is too wide to decide";
     case CONTAINMENT_UNENDED: return ends[h->end];
     }
     return "";

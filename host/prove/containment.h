@@ -28,7 +28,7 @@ typedef enum containment_verdict {
     CONTAINMENT_TO_THE_END, /* proved at every step's end */
     /* proved until until_s; at the next step's end, the error is proved to exceed the tolerance */
     CONTAINMENT_LEFT,
-    CONTAINMENT_UNTOLD, /* proved until until_s; then the tube is too wide to decide */
+    CONTAINMENT_UNDECIDED, /* proved until until_s; then the tube is too wide to decide */
     CONTAINMENT_UNENDED /* proved until until_s, at which the tube or the run ends (containment_found's `end`) */
 } containment_verdict;
 

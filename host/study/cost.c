@@ -179,15 +179,15 @@ static bool stands_again(const wh_tableau *by, unsigned s) {
 static work work_of(const wh_tableau *by, bool reaches) {
     work w = {.stages = (int)by->stages};
     for (unsigned s = 0; s < by->stages; s++) {
-        bool leans = false;
+        bool shears = false;
         for (unsigned j = 0; j < s; j++) {
             w.shares += by->stage[s].share[j] != 0;
             w.shares += reaches && by->places->reach[s].share[j] != 0;
-            leans = leans || (j > 0 && by->stage[s].share[j] != 0);
+            shears = shears || (j > 0 && by->stage[s].share[j] != 0);
         }
         w.shares += by->rates[s] != 0;
         w.shares += by->positions[s] != 0 && by->positions[s] != by->rates[s];
-        w.turns += leans;
+        w.turns += shears;
         w.places += !(reaches && stands_again(by, s));
     }
     int most = 0;

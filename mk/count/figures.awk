@@ -2,7 +2,7 @@
 # rows of
 #     commit,board,compiler,flags,scene,number,method,metric,value
 # Interval 0 is empty; its instructions are subtracted from every other interval.
-# An interval of a method "...-ahead" holds 100 steps (boards/programs/bench.c).
+# An interval of a method "...-multistep" holds 100 steps (boards/programs/bench.c).
 # Cycles are written if the counter has them. `obtained` states their source ("estimated", "simulated"); a board that
 # counts cycles itself prints silicon lines.
 # Variables: commit, board, compiler, flags, obtained. Fails if an interval is missing.
@@ -52,7 +52,7 @@ $1 == "count" {
     number[groups] = $4
     first[groups] = $5
     last[groups] = $6
-    held[groups] = $3 ~ /-ahead$/ ? 100 : 1
+    held[groups] = $3 ~ /-multistep$/ ? 100 : 1
 }
 
 END {

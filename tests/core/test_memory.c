@@ -50,7 +50,7 @@ static wh_status no_steps(const wh_scene *scene, wh_state *of, uint32_t steps) {
 static void must_not_run(const wh_scene *scene) {
     wh_scene with_multi_step = *scene;
     const wh_state before = state;
-    with_multi_step.ahead = no_steps;
+    with_multi_step.multi_step = no_steps;
     TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, 2) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, 0) == WH_E_ARGUMENT);

@@ -35,7 +35,7 @@ static wh_status advance(const wh_scene *scene, wh_state *of) {
                            of);
 }
 
-static wh_status ahead(const wh_scene *scene, wh_state *of, uint32_t steps) {
+static wh_status multi_step(const wh_scene *scene, wh_state *of, uint32_t steps) {
     return wh_multi_step(scene, advance, 1, 3, scene->compensated, of, steps);
 }
 
@@ -44,7 +44,7 @@ static const wh_real start_real[3] = {WH_R(0.5), WH_R(1.5), WH_R(-0.25)};
 static const wh_real start_input[1] = {WH_R(0.0)};
 
 static wh_scene scene_of(wh_method method, bool compensated) {
-    return (wh_scene){.name = "ahead",
+    return (wh_scene){.name = "multi_step",
                       .form = WH_SECOND_ORDER,
                       .method = method,
                       .angles = 1,
@@ -87,7 +87,7 @@ TEST(multi_step, multi_steps_are_steps) {
         for (unsigned i = 0; i < 6; i++) {
             const wh_scene plain = scene_of((wh_method)m, i % 2 == 1);
             wh_scene quick = plain;
-            quick.ahead = ahead;
+            quick.multi_step = multi_step;
             for (uint32_t some = 0; some < 3; some++) {
                 const ending one = end_of(&plain, some, 40, inputs[i / 2]);
                 const ending all = end_of(&quick, some, 40, inputs[i / 2]);

@@ -30,8 +30,8 @@ static const sample samples[] = {
 static int count_derived(const image *im, int first, int count, const char *text) {
     int derived_ones = 0;
     for (int i = first; i < first + count; i++) {
-        const diagnostics_question *q = &im->blame.question[i];
-        TEST_ASSERT_TRUE_MESSAGE(q->node >= 0 && q->node < im->blame.nodes, text);
+        const diagnostics_question *q = &im->diagnostics.question[i];
+        TEST_ASSERT_TRUE_MESSAGE(q->node >= 0 && q->node < im->diagnostics.nodes, text);
         derived_ones += q->derived;
     }
     return derived_ones;
@@ -61,7 +61,7 @@ TEST(blame_lists, slopes_of_energies_and_losses) {
         const int slopes = has_rates ? s->rates : s->places;
         snprintf(text, sizeof text, has_rates ? "F = 1 [W]*(%s)" : "V = 1 [J]*(%s)", s->text);
         derived d = with_statement(text);
-        const image_blame *b = &d.image->blame;
+        const image_diagnostics *b = &d.image->diagnostics;
         TEST_ASSERT_EQUAL_INT_MESSAGE(slopes, count_derived(d.image, 0, b->terms, text), text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(OF_T + 1 + slopes, b->terms, text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(b->terms, b->questions, text);
@@ -75,7 +75,7 @@ TEST(blame_lists, forces_have_no_slopes) {
         char text[200];
         snprintf(text, sizeof text, "Q(x) = 1 [N]*(%s)", samples[i].text);
         derived d = with_statement(text);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(OF_T + 1, d.image->blame.terms, text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(OF_T + 1, d.image->diagnostics.terms, text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, count_derived(d.image, 0, OF_T + 1, text), text);
         derived_free(&d);
     }
@@ -111,11 +111,11 @@ TEST(blame_lists, slopes_of_contacts) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(
                 slopes, count_derived(im, c->first_question, c->questions, text), text);
             TEST_ASSERT_EQUAL_INT_MESSAGE(kinds[k].values + slopes, c->questions, text);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(im->blame.terms + im->blame.sets, c->first_question,
-                                          text);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(im->diagnostics.terms + im->diagnostics.sets,
+                                          c->first_question, text);
             TEST_ASSERT_EQUAL_INT_MESSAGE(kinds[k].late, c->late, text);
             TEST_ASSERT_EQUAL_INT_MESSAGE(c->first_question + c->questions, c->first_late, text);
-            TEST_ASSERT_EQUAL_INT_MESSAGE(c->sets, im->blame.sets, text);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(c->sets, im->diagnostics.sets, text);
             derived_free(&d);
         }
     }

@@ -249,7 +249,7 @@ static horizon_column judged(const drawn_column *all, int k, double tolerance,
     }
     if (isinf(made.until_s)) {
         const bool still = moved == 0.0 && made.off == 0.0;
-        made.verdict = !keeps && c->rounding > 8.0 * tolerance * made.range ? HORIZON_NOT_TOLD
+        made.verdict = !keeps && c->rounding > 8.0 * tolerance * made.range ? HORIZON_UNKNOWN
                        : still                                              ? HORIZON_STILL
                                                                             : HORIZON_TO_THE_END;
     } else if (moved <= 8.0 * c->rounding && isfinite(made.off) && keeps) {
@@ -257,14 +257,14 @@ static horizon_column judged(const drawn_column *all, int k, double tolerance,
     } else {
         made.verdict = HORIZON_UNTIL;
     }
-    made.until_s = made.verdict == HORIZON_UNTIL      ? made.until_s
-                   : made.verdict == HORIZON_NOT_TOLD ? 0.0
-                                                      : end_s;
+    made.until_s = made.verdict == HORIZON_UNTIL     ? made.until_s
+                   : made.verdict == HORIZON_UNKNOWN ? 0.0
+                                                     : end_s;
     return made;
 }
 
 static bool ends_it(const horizon_column *c) {
-    return c->verdict == HORIZON_UNTIL || c->verdict == HORIZON_NOT_TOLD;
+    return c->verdict == HORIZON_UNTIL || c->verdict == HORIZON_UNKNOWN;
 }
 
 TEST(horizon, verdicts_on_drawn_columns) {

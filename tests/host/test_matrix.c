@@ -20,9 +20,9 @@ enum { TEXT_SIZE = 4096 };
 
 static const double input_at_start[LINEAR_INPUTS] = {0.5, 0.5};
 
-static quad whole_of(twofold a) { return (quad)a.high + (quad)a.low; }
+static quad whole_of(double_double a) { return (quad)a.high + (quad)a.low; }
 
-static twofold drawn_twofold(uint64_t *seed) {
+static double_double drawn_twofold(uint64_t *seed) {
     const double high =
         number_scaled(random_between(seed, 0.5, 1.0) * (random_bits(seed) % 2 != 0 ? 1.0 : -1.0),
                       (int)(random_bits(seed) % 60) - 30);
@@ -31,7 +31,7 @@ static twofold drawn_twofold(uint64_t *seed) {
         double_double_of(number_scaled(high * random_between(seed, -0.5, 0.5), -53)));
 }
 
-static void expect_near(quad want, twofold got, quad size) {
+static void expect_near(quad want, double_double got, quad size) {
     TEST_ASSERT_TRUE(quad_size(whole_of(got) - want) <= size * (quad)0x1p-100);
     TEST_ASSERT_TRUE((double)want == got.high);
 }
@@ -39,8 +39,8 @@ static void expect_near(quad want, twofold got, quad size) {
 TEST(matrix, twice_the_digits) {
     uint64_t seed = 7001;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
-        const twofold a = drawn_twofold(&seed);
-        const twofold b = drawn_twofold(&seed);
+        const double_double a = drawn_twofold(&seed);
+        const double_double b = drawn_twofold(&seed);
         const quad x = whole_of(a);
         const quad y = whole_of(b);
         expect_near(x * y, double_double_mul(a, b), quad_size(x * y));
@@ -54,11 +54,12 @@ TEST(matrix, twice_the_digits) {
 TEST(matrix, constants_are_rounded_once) {
     uint64_t seed = 7002;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
-        twofold a = drawn_twofold(&seed);
+        double_double a = drawn_twofold(&seed);
         if (n % 2 == 0) { /* a tie between two floats, or a number near a tie */
             const float below = (float)a.high;
             const double middle = ((double)below + (double)nextafterf(below, INFINITY)) / 2.0;
-            a = (twofold){middle, n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};
+            a = (double_double){middle,
+                                n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};
             a.low = n % 7 == 0 ? -a.low : a.low;
         }
         const double constant = double_double_constant(a);
@@ -108,7 +109,7 @@ static void set_matrix(motion *m, const char *text, const engine_kind *kind, ima
 /* A, B and c of the operation list must equal the test's own, apart from the round-off of the list's few constants.
  * Then of->rate gets the list's values. */
 static void take_rates(const image *im, const char *text, linear *of) {
-    static twofold rates[LINEAR_STATES * LINEAR_COLUMNS];
+    static double_double rates[LINEAR_STATES * LINEAR_COLUMNS];
     TEST_ASSERT_EQUAL_INT(of->columns, affine_columns(im));
     TEST_ASSERT_TRUE(affine_rates(im, rates));
     for (int i = 0; i < of->states; i++) {

@@ -84,7 +84,7 @@ static const char *said_behind(const char *at, const containment_state *s) {
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return said_exactly(at, "\n");
     case CONTAINMENT_LEFT: return said_exactly(at, "; proved: error too large after that\n");
-    case CONTAINMENT_UNTOLD:
+    case CONTAINMENT_UNDECIDED:
         return said_exactly(at, "; after that the tube is too wide to decide\n");
     case CONTAINMENT_UNENDED: break;
     }
