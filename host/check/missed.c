@@ -464,8 +464,8 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
  * the path. It is round-off if it is below WIDTHS times the width of the bounds at the middle of the part. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends, and
- * would change the rate within the path by more than TURNS times the rate. */
+/* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends. The
+ * change of the rate by it must also exceed TURNS times the rate. */
 #define HIDDEN 2.0
 #define TURNS 0.05
 /* A gap has an edge if its slope changes by more than EDGE times the slope within 2^-EDGE_HALVINGS of a path. */
