@@ -54,7 +54,9 @@ static turn_value power_of(turn_value x, turn_value y) {
     const double value = number_power(x.value, y.value);
     const double by_exponent =
         y.slope == 0.0 ? 0.0 : value * number_call(FN_LOG, x.value, 0.0) * y.slope;
-    return (turn_value){value, y.value * value / x.value * x.slope + by_exponent, fabs(value)};
+    const double by_base =
+        x.value != 0.0 ? y.value * value / x.value : y.value * number_power(0.0, y.value - 1.0);
+    return (turn_value){value, by_base * x.slope + by_exponent, fabs(value)};
 }
 
 static turn_value of_wave(op_code code, double turns, int multiple) {

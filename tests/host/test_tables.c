@@ -385,6 +385,34 @@ static const struct {
      "V = 1 [J]*cos(a)\nstop x >= 0 [m] restitution 0.5\n",
      "a scene with events cannot use tables", "6:1"}};
 
+/* A power above 2 of an expression that touches zero has a finite slope there. */
+TEST(tables, powers_of_expressions_with_a_zero) {
+    dice d = dice_of("table powers", 51);
+    for (unsigned i = 0; i < dice_cases(few_or_all(6, 60)); i++) {
+        char text[300];
+        const int n = 1 + (int)dice_one_of(&d, 3);
+        const double p = dice_between(&d, 2.0, 5.0);
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\n"
+                 "V = 1 [J]*(1 - cos(%d*th))^%.17g\nscene s { start th = 1 [rad]; until 1 [s] }\n",
+                 n, p);
+        derived of = derived_surely(derived_text(text), text);
+        image *im = tabled_surely(&of, both[i % 2U], 1024);
+        evaluator *e = evaluator_new(im->list[IMAGE_STEP]);
+        for (int k = 0; k < 50; k++) {
+            double accel = 0.0;
+            const double rate = 0.0;
+            const double th = k == 0 ? 0.0 : dice_between(&d, -3.0, 3.0);
+            evaluator_run(e, 0.0, &th, NULL, &rate, NULL, &accel);
+            const double exact = -p * pow(1.0 - cos(n * th), p - 1.0) * n * sin(n * th);
+            TEST_ASSERT_TRUE_MESSAGE(fabs(accel - exact) < 2e-3 * n * p * pow(2.0, p), text);
+        }
+        evaluator_free(e);
+        image_free(im);
+        derived_free(&of);
+    }
+}
+
 TEST(tables, unsuitable_expressions_are_refused_with_place) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         derived d = derived_surely(derived_text(refused[i].text), refused[i].text);
