@@ -8,9 +8,9 @@
 
 WH_C_BEGIN
 
-/* Returns the force in the middle of three successive intervals T, from the means over them. A mean is F + T^2/24 F''
- * plus a term of fourth order, which remains. Without this correction a 2 ms mean of a 6 Hz force is 0.02 % too small.
- * The noise increases by 9 %. Arguments are below 2^28 in magnitude. */
+/* Returns the force F at the centre of three successive intervals of length T, from the mean of each. The middle mean
+ * is F + T^2/24 F'' plus a term of fourth order, which is not corrected. Without this correction a 2 ms mean of
+ * a 6 Hz force is 0.02 % too small. The noise increases by 9 %. Arguments are below 2^28 in magnitude. */
 static inline int32_t hal_averaged_middle(int32_t before, int32_t mean, int32_t behind) {
     const int32_t bends = before - 2 * mean + behind;
     return mean - (bends + (bends < 0 ? -12 : 12)) / 24;

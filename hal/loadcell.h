@@ -30,7 +30,7 @@ typedef enum hal_load_status {
 } hal_load_status;
 
 typedef struct hal_load_sample {
-    uint32_t ticks; /* capture timer (clock.h) in the middle of the averaging interval */
+    uint32_t ticks; /* time of the averaging interval's middle, on the capture timer (clock.h) */
     int32_t raw;    /* counts; at overload plus or minus full scale */
     uint8_t status; /* a hal_load_status */
 } hal_load_sample;

@@ -1,8 +1,8 @@
 /* slots.h: the two infrared slot sensors on the rotor's slotted disc (Almesallmy 2006, I.1.1 and I.3.3.2). The slot is
  * in line with the arms. Sensor 1 is on the loading-train axis (theta = 0), sensor 2 is 90 degrees later in the sense
- * of rotation. A monostable makes one pulse for each passage of the slot. It begins at the slot's leading edge, when
- * the arms are HAL_SLOT_LEAD_DEG before the sensor. A timer captures both edges of the pulse: the leading edge gives
- * the rotor's position, the length distinguishes pulses from noise. */
+ * of rotation. A monostable makes one pulse for each passage of the slot. The pulse begins at the slot's leading edge,
+ * when the arms are HAL_SLOT_LEAD_DEG before the sensor. A timer captures both edges of the pulse: the leading edge
+ * gives the rotor's position, the length distinguishes pulses from noise. */
 #ifndef HAL_SLOTS_H
 #define HAL_SLOTS_H
 

@@ -1,5 +1,5 @@
-/* stop.h: the stop input: a button, or a chain of contacts, that a person at the rig opens. The control step that sees
- * it switches the motor off; a separate circuit may cut the drive, too. Call these functions from anywhere. */
+/* stop.h: the stop input: a button, or a chain of contacts, that a person at the rig opens. The next control step
+ * switches the motor off; a separate circuit may cut the drive, too. These functions may be called from anywhere. */
 #ifndef HAL_STOP_H
 #define HAL_STOP_H
 

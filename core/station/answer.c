@@ -5,7 +5,7 @@
 
 #include "core/rig/state_machine.h"
 
-/* Adds words with `blank` in place of blanks. If `blank` is '_', the words are a list item, and end before '|'. */
+/* Adds words, each blank replaced by `blank`. If `blank` is '_', the words are a list item that ends before '|'. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {

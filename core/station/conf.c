@@ -20,7 +20,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] WH_FLASH = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Least damping / slope of the motor's torque-speed line. Below 1: a measured damping may be too small. */
+/* Smallest allowed damping / (stall torque / no-load speed). Below 1, because a measured damping may be too small. */
 #define LINE_PART WH_R(0.9)
 
 #define ENTRY_BYTES 5U /* number, float value */
@@ -54,7 +54,7 @@ static const char *unit_of(wh_conf_id id) {
 #undef WORD
 }
 
-/* Returns a list: the words of a choice, or the name of the type. */
+/* Returns a list (answer.h): the values of a setting that is a choice; of a number, the one word real or whole. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
@@ -64,7 +64,7 @@ static const char *choices(wh_conf_id id) {
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* Returns the number of the row's units in one unit of the configuration. */
+/* Returns the factor from the configuration's unit to the row's unit, such as 1000 from newtons to millinewtons. */
 static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
@@ -116,7 +116,7 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
 }
 
-/* Scales the members that depend on gravity and on the masses' force (docs/dev/rig.md). */
+/* Scales the members that depend on the unbalance, on gravity and on the inertia (docs/dev/rig.md). */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moment = conf->value[WH_CONF_mass_moment];
     const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];
@@ -180,7 +180,7 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if the motor's data allow the arms' weight, the largest set-point, the supply range and the damping. */
+/* True if these settings fit the motor: arms' weight, largest set-point, spin-up, supply range, damping, gains. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;

@@ -1,7 +1,7 @@
 /* conf.h: the rig's settings as named numbers, listed in conf_rows.h.
  *
- * The program's own configuration gives the defaults. Permanent memory has only the settings that the user has set, so
- * another version of the program keeps those that it knows and has its own defaults for the others. */
+ * The program's own configuration gives the defaults. Permanent memory has only the settings that the user has set.
+ * Another version of the program loads those of them that it knows, and uses its own defaults for all others. */
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 

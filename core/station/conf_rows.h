@@ -18,7 +18,7 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number): `number` of this unit make one of the configuration. Units with a conversion come first. */
+/* X(unit, word, number): the configuration's SI unit is `number` of this unit. Units with a conversion come first. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

@@ -77,7 +77,7 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Returns the time of the last step, if wh_station_see() gave it. Otherwise result ages are up to 1 s too small. */
+/* Returns the last step's time. Without wh_station_see(), returns result_ticks: ages are then up to 1 s too small. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -237,7 +237,7 @@ typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
-/* A switch, not pointers: some commands call through pointers, and the stack analysis would see recursion. */
+/* A switch, not function pointers, because the stack analysis would see recursion: some commands call by pointers. */
 static unsigned run(request *r) {
 #define COMMAND(name, most, follows, words) 1U + (most),
     static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
@@ -384,7 +384,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* one order at a time: the rig's next answer belongs to it */
+        return; /* the next line waits until the rig has answered the order */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {

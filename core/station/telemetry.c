@@ -41,7 +41,7 @@ static bool triggers(const wh_capture *capture, uint8_t flags) {
     return false;
 }
 
-/* Records a step at `now_ticks`, less than 65 ms after the last one (16 bits), with TRIGGERED clear in its flags. */
+/* Records a step at `now_ticks`, less than 65 ms after the previous step (16 bits). step->flags lacks TRIGGERED. */
 static void capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
     wh_captured *to = &capture->step[capture->next];
     if (capture->count == 0) {
@@ -330,7 +330,7 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
 #define STATES WH_CAPTURE_STATE_ROWS(LISTED)
 #define CHANNELS WH_TEL_CHANNEL_ROWS(CHANNEL)
 
-/* Sends one of `every` samples from now on; 0: none. */
+/* From now on, sends every n-th sample, with n = `every`; 0: no samples. */
 static void set_rate(wh_tel *tel, uint32_t every) {
     tel->every = every;
     tel->passed = 0;

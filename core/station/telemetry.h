@@ -5,13 +5,13 @@
  *     0x80 + channel 1 | sequence 2 | dropped 2 | ticks 4 | payload | CRC-16/CCITT 2
  *
  * A zero precedes and ends each coded frame. Text is ASCII without zeros, so the second byte after a zero distinguishes
- * frames from text. `sequence` counts the channel's frames, `dropped` those of them that did not fit into the output
- * ring; both wrap. Other gaps in `sequence` are losses on the line.
+ * frames from text. `sequence` counts the channel's frames, sent or dropped; `dropped` counts those that did not fit
+ * into the output ring. Both wrap. A gap in `sequence` that `dropped` does not explain is a loss on the line.
  *
  * The console's `tel schema` describes the channels:
  *
- *     run    up to ten samples of the load, one period apart within an eighth of a period; speed, drive and state when
- *            the frame is sent
+ *     run    up to ten load samples, each within 1/8 of a period of its nominal time; speed, drive and state at the
+ *            time of sending
  *     event  one event, at `ticks`: an edge of a slot pulse, another state, a trip
  *     ring   the recorded control steps around a trigger (below), ten in a frame
  *
@@ -44,7 +44,7 @@ typedef enum wh_capture_trigger {
 #undef WH_CAPTURE_NAME
 
 typedef struct wh_captured {
-    uint16_t ticks; /* low half of the step's time */
+    uint16_t ticks; /* low 16 bits of the step's time */
     int16_t load;   /* counts divided by 2^wh_tel_shift() */
     uint16_t drive_mV;
     uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: this step is the trigger; 8: tripped */

@@ -130,7 +130,7 @@ static void see_stop(const wh_sample *sample) {
 /* Takes the newest readings of supply, stop and dials. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* stays false until the next reading, because times wrap */
+        stop_heard = false; /* latched: a wrap makes the difference small again */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -248,7 +248,7 @@ bool hal_slots_take(hal_slot_edge *edge) {
     return true;
 }
 
-/* includes lost samples */
+/* Returns the number of lost edges and lost samples. */
 uint32_t hal_slots_overruns(void) { return plant.lost; }
 
 static uint8_t load_status(uint8_t status) {

@@ -30,12 +30,12 @@ enum {
 /* Sets a note, which the next wait sends with the outputs. */
 void hal_frames_note(unsigned channel, float value);
 
-/* Call these at the begin and at the end of each control step (turns.h). A debugger can count from one function's
- * address to the other's. */
+/* Call these at the begin and at the end of each control step (turns.h). A debugger can count the
+ * instructions between the two calls. */
 void hal_frames_step_begins(void);
 void hal_frames_step_ends(void);
 
-/* Call this when the program ends: hal_turns_end(). */
+/* Reports the end of the program to the plant (hal_turns_end()). */
 void hal_frames_end(int status);
 
 /* The carriage operator's dials, X(name, word, unit, largest magnitude), and their notes, X(name, word, unit). */
@@ -45,8 +45,8 @@ void hal_frames_end(int status);
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
-/* The bench operator's dials: the set-point; the compensated part of gravity's torque (0: all, but only if the
- * set-point needs compensation); 1 if the motor brakes at a run's end and after stop. */
+/* The bench operator's dials: the set-point; the factor of the gravity compensation (0: factor 1, and only if the
+ * set-point needs compensation); braking (1: the motor brakes at a run's end and after stop). */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_COMPENSATION, "dial_feed", "1", 4.0f) \

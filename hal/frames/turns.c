@@ -58,7 +58,7 @@ static void keep(hal_turns *turns, const wh_readings *news) {
     turns->sample = 0;
 }
 
-/* Stores the cause of the start, which comes before the first readings. */
+/* Stores the cause of the start, if the frame has it. The plant sends it before the first readings. */
 static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     if (frame->version == WH_FRAME_VERSION && frame->kind == WH_FRAME_RESET &&
         !wh_reset_get(&turns->reset, frame->payload, frame->length)) {
@@ -66,7 +66,7 @@ static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     }
 }
 
-/* Waits for readings; ignores other frames. At first `hello_bytes` is the size of the hello in turns->payload. */
+/* Waits for readings. If hello_bytes > 0, answers each WH_FRAME_ASK meanwhile with the hello in turns->payload. */
 static void hear(hal_turns *turns, unsigned hello_bytes) {
     wh_frame frame;
     wh_readings news;

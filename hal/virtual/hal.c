@@ -17,7 +17,7 @@ hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
-/* True after the leading edge of `pulse` was taken, until its trailing edge is. No other pulse begins meanwhile,
+/* True between the calls that take the leading edge of `pulse` and its trailing edge. No other pulse begins meanwhile,
  * because pulses are farther apart than they are long. */
 static bool is_high;
 static hal_slot_edge pulse;

@@ -66,7 +66,7 @@ typedef struct hal_virtual_rig {
     bool stop_cuts;    /* a short press of stop has cut the drive until hal_motor_off() */
     bool stop_pressed; /* may be set at any time */
     hal_reset cause;   /* why the processor started */
-    bool in_reset;     /* until hal_clock_start(); the plant goes on meanwhile */
+    bool in_reset;     /* from a reset until hal_clock_start(); the rotor keeps turning */
     uint8_t remembered[HAL_REMEMBER_BYTES];
     unsigned remembers; /* number of remembered bytes */
     hal_virtual_faults faults;
@@ -83,8 +83,8 @@ void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
  * the timer restarts; the rotor keeps turning, also through the next hal_clock_start(). */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* Switches the enable on and sets a voltage. The next functions are like hal_motor_off(), hal_slots_take() (leading
- * edges only) and hal_loadcell_take(). */
+/* Switches the enable on and sets a voltage. The three functions after it act like hal_motor_off(), hal_slots_take()
+ * (leading edges only) and hal_loadcell_take(). */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
