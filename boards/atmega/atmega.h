@@ -45,7 +45,7 @@ typedef struct atmega_instant {
     uint8_t wraps;
 } atmega_instant;
 
-/* number of wraps so far, modulo 256 */
+/* number of wraps of timers 4 and 5 so far, modulo 256 */
 extern volatile uint8_t atmega_wraps;
 
 /* Returns the time at which both timers showed `count`, less than half a wrap ago. Call it within an interrupt. */
@@ -77,8 +77,8 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* ATMEGA_WHOLE divided by the supply's volts (0: no supply), computed with each sample of the load (cell.c): some
- * control steps have no time for a division. */
+/* Returns ATMEGA_WHOLE divided by the supply voltage in volts (0: no supply). Taking a load sample computes the
+ * quotient (cell.c), because some control steps have no time for a division. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 

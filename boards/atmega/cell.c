@@ -23,9 +23,9 @@ _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
 #define TIMER_COUNT_TICKS 2U
 _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32nd");
 
-/* From the start of a conversion until the input is held: one and a half clocks of 125 kHz (DS 26.4). */
+/* Time from the start of a conversion until the input is held: one and a half clocks of 125 kHz (DS 26.4). */
 #define HELD_TICKS 12U
-/* From the middle of the sixteen conversions to the tick after the last one. */
+/* Time from the middle of the sixteen conversions to the tick after the last one. */
 #define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
 
 #define FULL 1023U
@@ -86,7 +86,7 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* Stores a sample. In a separate interrupt, so that a tick's saves fewer registers. TCNT2 is the time since a tick. */
+/* Stores a sample. A second interrupt, so that the first saves fewer registers. TCNT2 is the time since the tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -145,7 +145,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* A sample has 14 bits; one unit is four counts of hal/loadcell.h. */
+/* A sample's sum has 14 bits; one unit of the sum is four counts of hal/loadcell.h. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

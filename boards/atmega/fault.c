@@ -1,6 +1,6 @@
 /* fault.c: faults on a chip without fault hardware. The software detects an interrupt without a handler, a stack that
  * has reached the variables, and a restart without a reset. A restart follows a wild jump, because execution of erased
- * flash ends at address 0. First one instruction clears the enable's pin, without a register or the stack. */
+ * flash ends at address 0. Handler and start-up code first clear the enable's pin, without a register or the stack. */
 #include "boards/board.h"
 #include "hal/motor.h"
 

@@ -14,9 +14,9 @@ _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 static volatile bool driving; /* an interrupt may clear it, too */
 static uint16_t carried;      /* rounding error for the next control step, in parts */
 
-/* Sets timer 1: OC1A low, duty 0, disconnected from its pin, which is an input until then. OC1A has the level of the
- * last disconnection, and only a strobe in normal mode sets it (DS 17.7.1, 17.8). In normal mode OCR1A takes effect at
- * once, too. ICR1 is writable only in modes that use it as TOP (DS 17.6). */
+/* Sets timer 1: OC1A low, duty 0, disconnected from its pin, which is an input meanwhile. OC1A still has the level of
+ * its last disconnection: only a strobe in normal mode changes it (DS 17.7.1, 17.8), and only normal mode makes OCR1A
+ * take effect at once. ICR1 is writable only in modes that use it as TOP (DS 17.6). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;
@@ -75,7 +75,7 @@ void hal_motor_set_voltage(float volts) {
     OCR1A = steps;
 }
 
-/* The first instruction clears the enable, as after a fault (fault.c). */
+/* For coasting, the enable is cleared before all else, as after a fault (fault.c). */
 void hal_motor_off(hal_motor_off_way way) {
     if (way != HAL_MOTOR_BRAKE) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);

@@ -70,8 +70,8 @@ static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *f
     *flags = _BV(ICF4);
 }
 
-/* Returns the captured edge, as bits of kept_edge. Then the timer captures the opposite edge, or the same one again if
- * the opposite one has passed. In a burst even more edges may pass: hal_slots_take() checks for this. */
+/* Returns the captured edge, as kept_edge.of. Makes the timer capture the opposite edge; if that has already passed,
+ * the same edge again. If a burst has more edges than this loop checks, hal_slots_take() sets the edge. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);

@@ -1,12 +1,12 @@
 /* watchdog.c: the chip's watchdog (DS 12.4) resets the chip; the pins then float, so the drive is off. Its oscillator
- * has 128 kHz within 15 %, its periods double from 14 ms to 8 s: a reset comes after 1 to 2.7 timeouts. */
+ * has 128 kHz within 15 %, and the chip's periods double from 14 ms to 8 s: a reset comes after 1 to 2.7 timeouts. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
 #define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks of the fastest oscillator, 13.9 ms */
-#define LONGEST 9U                     /* doublings, to about 8 s */
+#define LONGEST 9U                     /* largest number of doublings: about 8 s */
 
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint8_t twice = 0;

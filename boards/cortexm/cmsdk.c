@@ -22,7 +22,7 @@ void uart_start(void) {
     REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE | UART_CTRL_RX_ENABLE;
 }
 
-/* Starts the device for a program without board_start(), which would hang otherwise. */
+/* Starts the device if the program has not called board_start(): otherwise the wait would never end. */
 void uart_write(const char *bytes, unsigned count) {
     if ((REGISTER(UART_CTRL) & UART_CTRL_TX_ENABLE) == 0) {
         uart_start();

@@ -29,9 +29,9 @@ void uart_write(const char *bytes, unsigned count);
 /* Starts the free-running clock. */
 void timer_start(void);
 
-/* Vectors that a program may handle by a function on_NAME(); otherwise they are faults. X(exception, NAME) lists the
- * core's; BOARD_VECTOR_ROWS in board_data.h lists those of the chip's drivers, X(interrupt, NAME). The four fault
- * vectors are reserved: the motor must be off before any other code runs. */
+/* Vectors that a program may handle by a function on_NAME(); otherwise they are faults. This list has the core's
+ * vectors, X(exception, NAME); BOARD_VECTOR_ROWS (board_data.h) has those of the chip's drivers, X(interrupt, NAME).
+ * The four fault vectors are reserved: the motor must be off before any other code runs. */
 #define CORTEXM_VECTOR_ROWS(X) \
     X(2, nmi) \
     X(11, svcall) \

@@ -7,7 +7,7 @@
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the processor counts them itself (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
- * BENCH_SMALL=1 omits the language's functions and the processor's own count, for small memories. Interval 0 is empty.
+ * BENCH_SMALL=1 omits wh_exp() and other functions, and the cycles, for small memories. Interval 0 is empty.
  * On a board an interval includes the call (arguments and branch); callgrind counts the called function alone. */
 #include "boards/programs/counted.h"
 #include "boards/programs/step_cycles.h"
@@ -84,7 +84,7 @@ static const struct {
     wh_real (*one)(wh_real x);
     wh_real (*two)(wh_real x, wh_real y);
     wh_real scale;  /* multiplies an argument from -1 to 1 */
-    wh_real offset; /* added afterwards */
+    wh_real offset; /* added to the product */
 } functions[] = {
     {"wh_exp", wh_exp, NULL, WH_R(20.0), WH_R(0.0)},
     {"wh_log", wh_log, NULL, WH_R(20.0), WH_R(20.01)},

@@ -33,7 +33,7 @@ static const wh_scene *const scenes[] = {WH_LIGHT_SCENES(ADDRESS_OF)};
 #define SCENES (sizeof scenes / sizeof scenes[0])
 _Static_assert(SCENES == 5U, "five scenes");
 
-/* shared, because the scenes run one after the other */
+/* one memory for all scenes, because they run one after the other */
 #define MEMORY_OF(scene) uint64_t scene[scene##_MEMORY_WORDS];
 static union { WH_LIGHT_SCENES(MEMORY_OF) } scene_memory;
 
@@ -64,7 +64,7 @@ static void run_scene(const wh_scene *scene, run *to) {
 
 static uint32_t crc;
 
-/* The CRC gets a line feed, the terminal also a carriage return before it. */
+/* Ends the line with "\n" in the CRC; the rig's hardware sends "\r\n". */
 static void end_line(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);

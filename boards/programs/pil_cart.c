@@ -1,6 +1,6 @@
 /* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`. It reads two
- * encoders every millisecond and a light barrier in the middle of the rail. The force is a sum of angle, position and
- * their rates, smoothed differences of counts; it puts the poles of the linear system at -6, -6, -2 and -2 per second
+ * encoders every millisecond and a light barrier in the middle of the rail. The force is a weighted sum of angle,
+ * position and their smoothed rates. The weights put the linear system's poles at -6, -6, -2 and -2 per second
  * (docs/pil.md). Exit status 0: after ten seconds the rod is upright in the middle; 1: it is not; 2: no plant. */
 #include "boards/board.h"
 #include "core/text.h"

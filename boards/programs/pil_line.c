@@ -1,5 +1,5 @@
-/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`. It
- * reports its end by a message, because the other side cannot detect it. */
+/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`. A
+ * message reports the program's end, which the plant cannot detect otherwise. */
 #include "boards/board.h"
 #include "hal/frames/rig_frames.h"
 #include "hal/link.h"

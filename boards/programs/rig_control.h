@@ -33,7 +33,7 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
-/* The begin and the end of a step's work, without readings and outputs, for programs that count it. */
+/* Enclose the work of a control step, without readings and outputs, for programs that count its instructions. */
 #if HAL_FRAMES
 #define STEP_BEGINS() hal_frames_step_begins()
 #define STEP_ENDS() hal_frames_step_ends()
@@ -51,8 +51,8 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, the same as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* Largest numbers of samples in a step, and in a step with a pulse: other samples wait for the next step. A small
- * chip's build may set smaller numbers. */
+/* Largest number of samples that a step takes, without a pulse (2) and with one (1): other samples wait for the next
+ * step. A small chip's build may set smaller numbers. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
 #endif
@@ -72,7 +72,7 @@ static bool drives;              /* true if the last command drove the motor (ob
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* At most two edges, and none after a leading one (a pulse): a storm of edges cannot delay the step. Other edges
+    /* Takes at most two edges, and none after a leading one (a pulse): a storm of edges cannot delay the step. Others
      * wait. If a step with a pulse reads no samples (RIG_SAMPLES_WITH_PULSE is 0), the next step takes no edge. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
@@ -119,7 +119,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
     obey(&command, &drives);
     trip_memory_keep(&kept_trip, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
-    /* also after a trip: a watchdog that resets would restart everything */
+    /* also after a trip, because some watchdogs would reset the processor */
     hal_watchdog_kick();
 }
 

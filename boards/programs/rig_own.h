@@ -12,7 +12,7 @@
 /* The observer's model: scene rig_fixed of core/models/eccentric.whirl, with the control step as step (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
-/* the check of the arithmetic, in the model's file if there is a model */
+/* wh_arithmetic() as compiled in the model's file; in this file, if there is no model */
 #if WH_RIG_FEEDS
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else

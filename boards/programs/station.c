@@ -48,8 +48,8 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* Waits for the next period of the board's clock, which begins now after a long delay (a debugger, a sleeping
- * laptop). */
+/* Waits for the next period of the board's clock. After a long delay (a debugger, a sleeping laptop) the next period
+ * begins now. */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;

@@ -5,7 +5,7 @@
 #include "boards/board.h"
 #include "core/scene.h"
 
-/* Largest number of steps for the median. An AVR counts no cycles. */
+/* Largest number of stored steps, for the median; 1 on an AVR, which counts no cycles. */
 #ifdef __AVR__
 #define STEP_CYCLES_KEPT 1U
 #else
@@ -25,7 +25,7 @@ static inline void step_cycles_start(step_cycles *c) {
     *c = (step_cycles){.nothing = board_cycles() - before, .least = UINT32_MAX};
 }
 
-/* Does one step and counts its cycles; `keep`: for the median, too. */
+/* Does one step and counts its cycles. If `keep`, stores the count for the median. */
 static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_state *state,
                                      bool keep) {
     const uint32_t before = board_cycles();

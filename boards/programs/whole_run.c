@@ -1,11 +1,11 @@
 /* whole_run.c: counts every step of a scene's run, because a few steps do not show the cost of steps with events.
  * Prints
  *
- *     run NAME STEPS       all steps were made; interval 0 is empty, and each interval from 1 on has one step
- *     stack NAME BYTES     deepest stack of the program during those steps
+ *     run NAME STEPS       all steps were made; interval 0 is empty, and each later one is the largest of RUN_EVERY
+ *     stack NAME BYTES     deepest stack of the program during the run's steps
  *     failed NAME STATUS   a step failed
  *
- * The counter reports RUN_EVERY intervals as one (count_plugin.c, every=), so as many empty intervals come first. */
+ * The counter reports RUN_EVERY steps as one interval (count_plugin.c, every=): first RUN_EVERY empty ones. */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 

@@ -6,7 +6,7 @@
 
 bool hal_link_open(void) { return board_converse(); }
 
-/* 20 us, because a device may store only one byte, and a byte takes 87 us at 115,200 baud */
+/* one poll every 20 us, because a device may store only one byte, and a byte takes 87 us at 115,200 baud */
 #define POLLS_PER_S 50000U
 
 unsigned hal_link_read(uint8_t *bytes, unsigned room) {

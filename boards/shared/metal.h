@@ -23,7 +23,7 @@ extern uint32_t board_stack_limit[]; /* lowest word of the stack */
 extern uint32_t board_stack_top[];   /* one past the highest word of the stack */
 extern uint32_t board_fault_stack_top[];
 
-/* Size of the guard strip, and its alignment, because memory protection units require it. */
+/* Size of the guard strip. It is also the strip's alignment, because memory protection units require that. */
 #define BOARD_STRIP_BYTES 256U
 
 /* Protects the guard strip, if the chip can: accesses to it then fault (guard.c). The start-up code calls this once. */

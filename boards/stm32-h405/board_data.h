@@ -1,5 +1,5 @@
-/* Olimex STM32-H405: STM32F405RG with an 8 MHz crystal. Pins on its extension headers have their names on the chip. Its
- * button is on PA0, so the slot sensors are on PA1 and PA2. */
+/* Olimex STM32-H405: STM32F405RG with an 8 MHz crystal. The board labels the pins of its extension headers with the
+ * chip's names. The button is on PA0, so the slot sensors are on PA1 and PA2. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 

@@ -2,9 +2,9 @@
  *
  * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts after each half
  * of its memory: 64 pairs, 2 ms. A sample is the mean of 64 conversions, with the time stamp of their middle, so it has
- * no delay. It waits for the next mean, because the correction of a mean needs both neighbours (hal/averaged.h). One
- * count of the converter is 109 mN. With noise of half a count the mean resolves 1.7 mN; the unit of a sample is 6.8
- * mN.
+ * no delay. A sample waits for the next mean, because the correction of a mean needs both neighbours (hal/averaged.h).
+ * One count of the converter is 109 mN. With noise of half a count the mean resolves 1.7 mN; the unit of a sample is
+ * 6.8 mN.
  *
  * Without force, the amplifier's output is half of the reference; near either end the amplifier is saturated. If all
  * counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. Leakage, and charge that
@@ -23,8 +23,8 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* From the middle of the samples to the interrupt: half of the pairs minus half of one pair, plus 5 us. The conversions
- * of a pair take 9 us, and the force is sampled in the first 4 us. */
+/* Time from the middle of the samples to the interrupt: half of the pairs minus half of one pair, plus 5 us. The
+ * conversions of a pair take 9 us, and the force is sampled in the first 4 us. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* highest clock of the converter (STM32F405's data sheet, table 67) */
@@ -110,7 +110,7 @@ void stm32f4_cell_start(void) {
     start_trigger();
 }
 
-/* True if the converter was not interrupted between these two means. */
+/* True if both means are good, and the converter was not interrupted between them. */
 static bool follows(const hal_load_sample *before, const hal_load_sample *sample) {
     const uint32_t passed = sample->ticks - before->ticks;
     return before->status == HAL_LOAD_OK && sample->status == HAL_LOAD_OK &&

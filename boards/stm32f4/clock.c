@@ -45,7 +45,7 @@ static bool to_own_oscillator(void) {
     reg_clear(RCC_CR, RCC_CR_PLLON | RCC_CR_CSSON);
     (void)stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEON);
-    /* takes six cycles of the crystal (7.3.1) */
+    /* the oscillator stops after six cycles of the crystal (7.3.1) */
     (void)stm32f4_comes(RCC_CR, RCC_CR_HSERDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEBYP);
     reg_store(RCC_CFGR, 0);

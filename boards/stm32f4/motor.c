@@ -71,7 +71,7 @@ unsigned hal_motor_start(void) {
 /* Without MOE the voltage has no effect; a start sets it to 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* The first store clears the output, as after a fault (BOARD_SAFE_ROWS). Any press of stop then prevents a start. */
+/* The first store clears the output, as after a fault (BOARD_SAFE_ROWS). BIF is cleared to show new presses of stop. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);

@@ -86,7 +86,7 @@ void on_tim2(void) {
     }
 }
 
-/* Restarts a paused capture, without the captures that remain from a storm: they may be of any age. */
+/* Also restarts a paused capture, and drops the captures that remain from a storm: they may be of any age. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

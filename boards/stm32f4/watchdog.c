@@ -1,5 +1,5 @@
 /* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip, also while a debugger halts the core
- * (motor.c). In a reset the drive is off. Its oscillator has 17 to 47 kHz: a reset comes after 1 to 2.8 timeouts. */
+ * (motor.c). A reset switches the drive off. It comes after 1 to 2.8 timeouts: the oscillator has 17 to 47 kHz. */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"

@@ -117,7 +117,7 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     return avr;
 }
 
-/* 0: unknown */
+/* address in data memory; 0: unknown */
 static uint32_t end_of_variables;
 
 static uint32_t stack_pointer(const avr_t *avr) {
@@ -151,7 +151,7 @@ static bool step(avr_t *avr) {
     return state != cpu_Done;
 }
 
-/* Intervals that count as one: their largest values, and their sums. */
+/* Intervals that are reported as one: their number, their largest counts, and the sums of their counts (all...). */
 typedef struct group {
     uint64_t members;
     uint64_t instructions, cycles;
