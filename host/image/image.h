@@ -14,7 +14,7 @@
 #include "host/image/op_list.h"
 #include "host/number/ratio.h"
 
-enum { IMAGE_WAYS = 6 }; /* variants in other ways of folding */
+enum { IMAGE_WAYS = 6 }; /* most variants of an image, each with another way of constant folding */
 
 #define IMAGE_COMPONENTS_MAX 64 /* coordinates of a mechanism, or first-order components */
 
@@ -58,7 +58,7 @@ enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 typedef struct image_settings {
     wh_method method;
     bool compensated;
-    bool stabilized; /* corrects the energy drift (core/step/stabilize.h), with the ledger */
+    bool stabilized; /* corrects the drift that the ledger finds (core/step/stabilize.h) */
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;

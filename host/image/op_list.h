@@ -119,7 +119,7 @@ typedef struct op {
     const double *parts;
 } op;
 
-/* As in core/step/table.h, except that a position y is in cells, without the scale of float. */
+/* The tables of core/step/table.h. Coefficients apply to positions y in cells, without the scale that float needs. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -200,13 +200,13 @@ void op_list_order(op_list *t);
 /* Estimates the least number of loads and stores in the list's order, with some twenty registers. */
 int op_list_carried(const op_list *t);
 
-/* Does the list use angles with all their turns, instead of modulo a turn? A step does not have them. */
+/* Does the list use angles with all their turns? A step has angles only modulo a turn. */
 bool op_list_reads_turns(const op_list *t);
 
 /* A wave: a phase composed of turn angles, which a step can rotate (core/step/stage_turn.h). */
 static inline bool op_list_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
 int op_list_waves(const op_list *t);
-/* Is every wave a sum of turn angles and a number? Then the list can receive the sine-cosine pairs in its order. */
+/* Is every wave a sum of turn angles and a number? Then a step can pass their sine-cosine pairs to the list. */
 bool op_list_takes_waves(const op_list *t);
 
 /* Returns the number of the first result that depends on a constant that is not finite, or -1. */
@@ -229,7 +229,7 @@ typedef struct op_list_cost {
 op_list_cost op_list_count(const op_list *t);
 /* Estimated instructions on a Cortex-M4F, for comparing lists. */
 int op_list_weight(const op_list *t);
-/* Operations as flops are counted: without leaves, phases and constants; a sine and a cosine count one each. */
+/* Counts the operations as flops: without leaves, phases and constants; a sine and a cosine count one each. */
 int op_list_operations(const op_list *t);
 uint64_t op_list_hash(const op_list *t);
 

@@ -129,7 +129,7 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     }
 }
 
-/* Returns all solutions, with raw values multiplied at any use. */
+/* Returns all scalings. Each use of a raw value has an exponent of its own. */
 static matrix all_freedoms(const unknowns *u) {
     const op_list *t = u->of;
     matrix m = matrix_new(2 * t->count + t->results, u->columns);
@@ -147,14 +147,14 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* The uses of raw values that are multiplied, with one factor for each raw value. */
+/* The uses at which raw values are multiplied. All chosen uses of one raw value have the same factor. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* column of an earlier use of the same value, or this column */
     int count;
 } chosen;
 
-/* Is e[] nonzero at each chosen use, and at an operation without a constant that could absorb the factor? */
+/* Is e[] nonzero at every chosen use, and at some operation that has no constant to absorb the factor? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -367,7 +367,7 @@ static int make_product(const multiplied *m, int i) {
     return op_list_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
-/* Enters an operation whose operands are multiplied by `times`. The second is entered first, always. */
+/* Enters an operation whose operands are multiplied by `times`. Operand b is entered before operand a. */
 static int make_of_operands(const multiplied *m, const op *o, double times) {
     const int second = o->b >= 0 ? taken(m, o->b, times) : -1;
     const int first = taken(m, o->a, times);
@@ -486,10 +486,10 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* Weight of a result that feeds back into no other, as of a free carriage's acceleration: its error does not grow. */
+/* Weight of a result that changes nothing the list reads, such as a free carriage's acceleration: no error grows. */
 #define UNREAD (1.0 / 64.0)
 
-/* Weight 1 if the list reads the component that a result changes. Both are in the order angles, then reals. */
+/* Gives weight 1 to a result that changes a component that the list reads, else UNREAD. Angles come before reals. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -527,7 +527,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
             results_at(t, state, size_of_rates[s], true, v, now);
             results_at(like, state, size_of_rates[s], false, v, meant);
             for (int i = 0; i < n; i++) {
-                /* states with a result that is not finite, such as a root of a negative number, are skipped */
+                /* a result that is not finite in a state, such as the root of a negative number, is skipped there */
                 const bool known = isfinite(now[i]) && isfinite(meant[i]);
                 off[i] += known ? fabs(now[i] - meant[i]) : 0.0;
                 size[i] += known ? fabs(meant[i]) : 0.0;
@@ -559,9 +559,9 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-/* a list is clearly better if its bias is at most this part of the best so far */
+/* a list is clearly better if its bias is below this part of the best list's bias */
 #define CLEARLY 0.5
-#define LESS 0.99 /* a list is better if its bias is at most this part of the best so far */
+#define LESS 0.99 /* a list is better if its bias is below this part of the best list's */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 

@@ -6,9 +6,9 @@
 #include "host/image/op_list.h"
 
 /* Returns the relative error of a finished list's results from rounding its constants to float, with exact operations.
- * It is the root mean square over the results and over artificial states with rates of three sizes. Results that do not
- * feed back into the list have a small weight. The reference is `like`: the same list, or one with equal results. NaN
- * if undefined. */
+ * It is the root mean square over the results and over three sizes of rates, each summed over artificial states. A
+ * result has a small weight if it changes nothing the list reads. The reference is `like`: the same list, or one with
+ * equal results. NaN if undefined. */
 double op_list_bias(const op_list *t, const op_list *like);
 
 /* Returns the allowed number of additional operations: one, and one for each forty operations. */

@@ -126,8 +126,8 @@ static bool is_held(const registers *r, int v) {
     return k < r->count;
 }
 
-/* Finds the first use of each value: next[ops]. Returns after[TAKEN_MOST * at + k]: the use that follows that by
- * operand k at position `at`. The caller frees it. */
+/* Computes next[ops], the position of each value's first use. Returns after[TAKEN_MOST * at + k]: the position at which
+ * operand k of position `at` is used next. The caller frees it. */
 static int *uses_after(const op_list *t, const int *sequence, int count, int *next) {
     int *after = alloc_more(NULL, TAKEN_MOST * count, sizeof *after);
     int found[TAKEN_MOST];
@@ -352,7 +352,7 @@ static void put_next(placing *p, int i) {
     }
 }
 
-/* Puts the operations of the sequence first. All others are given, unused, or only results. */
+/* Puts the operations of the sequence first, each after its operands. The others follow in the order of entry. */
 static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int count) {
     placing p = {t, n, alloc_more(NULL, t->count, sizeof *p.order),
                  alloc_more(NULL, t->count, sizeof *p.number), 0};

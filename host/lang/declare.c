@@ -43,7 +43,7 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* Returns the symbol of the output with noise. All noises of the output share it. */
+/* Returns the symbol that records `output` with its noise. All noises of one output share this symbol. */
 static const symbol *record_of(parser *in, const symbol *output) {
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->noise_count; i++) {
@@ -239,7 +239,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            /* a zero fits every dimension only as a literal or through a let */
+            /* a literal zero fits every dimension; so does a let of it, but no other symbol */
             made->dim.any &= made->kind == SYM_LET;
         }
     }

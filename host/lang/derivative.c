@@ -1,4 +1,4 @@
-/* derivative.c: time derivatives of lets, by the chain rule. The parser makes each as a let, at its first use. */
+/* derivative.c: time derivatives of lets, by the chain rule. The first use of a derivative adds a let for it. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,7 +81,7 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
         const expr *size = expr_binary(in, EXPR_ADD, at, square(in, u), square(in, v));
         return expr_binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
     }
-    /* if both arguments are equal, the mean of their derivatives */
+    /* the derivative of the smaller or larger argument; if both are equal, the mean of the two derivatives */
     if (of->function == FN_MIN || of->function == FN_MAX) {
         const expr *lead = call(in, FN_SIGN, at, expr_binary(in, EXPR_SUB, at, u, v));
         const expr *half = number(in, at, of->function == FN_MIN ? -0.5 : 0.5);
@@ -249,7 +249,7 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     return buffer;
 }
 
-/* Can the input that `s` names as its rate be a rate? If not, reports the reason. */
+/* Is the symbol that input `s` names as its rate suitable? If not, reports the reason. */
 static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     const named *rate = (const named *)s->rate;
     char unit[DIM_TEXT_SIZE];
@@ -307,7 +307,7 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* Finds an input in the expression: one that is a rate (`rates`), or one without a rate. Visits each let once. */
+/* Returns an input in the expression that is a rate (`rates`), or one that has no rate; else NULL. Visits lets once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;
@@ -328,7 +328,7 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* Reports a rate in a stop or hold. A hold fixes its expression, so each input in it must have a rate. */
+/* Reports a stop or hold that contains the rate of an input, and a hold that contains an input without a rate. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

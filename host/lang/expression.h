@@ -26,7 +26,7 @@ void no_such_symbol(parser *in, const mechanism *of, const token *name);
 /* Reads "= EXPR", the value of `name`, and checks it unless the name is unknown (`of` is NULL). */
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
                     const char *hint, const expr **value);
-/* Reports that `list` already assigns to `name`; `verb` is "set" or "given". */
+/* Reports an error if `list` already assigns to `name`; `verb` is "set" or "given". */
 void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
                          const token *name, const char *verb);
 
@@ -39,7 +39,7 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name);
 
 /* --- operators (operators.c) --- */
 expr *expr_new(parser *in, expr_op op, place at);
-/* If an operand is NULL, after an error, so is the result. */
+/* Returns NULL if an operand is NULL, because of an earlier error. */
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right);
 /* Returns left - right of a comparison. Both sides must have the same dimension. */
 const expr *expr_difference(parser *in, place at, const expr *left, const expr *right);

@@ -5,7 +5,7 @@
 #include "host/base/alloc.h"
 #include "host/lang/value.h"
 
-/* SI, far below any rate of interest */
+/* A rate in SI that is practically rest: far below the rates of real motions. */
 #define NEAR_REST 1e-6
 
 /* Does the tree, or a let in it, name a coordinate other than `own`, or `own` without a prime? */

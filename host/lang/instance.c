@@ -77,7 +77,7 @@ static void check_noise(const noise *each, valuation *known) {
     }
 }
 
-/* Reports two statements of active effects that exclude each other. */
+/* Reports two active frictions on one coordinate, or two active noises on one output. */
 static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
     for (int i = 0; i < of->contact_count; i++) {
@@ -141,7 +141,7 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Reports values out of range, with the initial inputs. A program that changes inputs must check the new values. */
+/* Reports values that are out of range at the initial inputs. A program that sets inputs must check them. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -284,7 +284,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
 
 static bool is_word(const char *text, word_id word) { return word_is(word, text, strlen(text)); }
 
-/* Applies "all". Single effects follow in apply_effects(). */
+/* Applies the word `all` of --with or --without. apply_effects() then applies the names of single effects. */
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
     for (int i = 0; i < count; i++) {
         for (int k = 0; is_word(texts[i], WORD_ALL) && k < made->mechanism->effect_count; k++) {

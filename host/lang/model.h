@@ -30,19 +30,19 @@ typedef struct symbol {
     bool is_angle;       /* coordinate or state: declared in rad, deg or rev */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
     place at;            /* place of its declaration */
-    int index;           /* number within its kind in its mechanism, in the order of declaration */
+    int index;           /* number among the mechanism's symbols of this kind, as declared */
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* A driven coordinate replaces an input with a rate inside a step, and is listed after the declared ones. For the
-     * input and for its rate, this is that coordinate; for that coordinate, it is the input; else NULL. */
+    /* Inside a step, a driven coordinate replaces an input with a rate. The mechanism lists it after the declared
+     * coordinates. The input and its rate point to this coordinate, the coordinate points to the input. Else NULL. */
     const struct symbol *driven;
 } symbol;
 
-/* Returns the driven coordinate for an input with a rate (*primes: 0), and for that rate (1); else `s`. */
+/* Returns the driven coordinate of an input with a rate (*primes = 0), or of such a rate (*primes = 1); else `s`. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
-/* Returns the input that accelerates a driven coordinate; NULL if the rate is constant inside a step. */
+/* Returns the input that is the acceleration of a driven coordinate; NULL if its rate is constant inside a step. */
 const symbol *symbol_acceleration(const symbol *driven);
 
 /* Writes a hint that declares the rate of an input to buffer[RATE_HINT_SIZE]: two statements that can be pasted. */
@@ -167,7 +167,7 @@ typedef struct mechanism {
     const char *name;
     const char *title;
     place at;
-    int last_line; /* before the next mechanism, or the last of the file */
+    int last_line; /* the line before the next mechanism, or the last line of the file */
     const symbol **coordinates;
     int coordinate_count; /* coordinates, or states */
     const symbol **parameters;
@@ -271,12 +271,12 @@ typedef struct instance {
     const scene *scene;           /* NULL for a bare mechanism */
     const char *name;             /* the scene's name, the mechanism's, or overrides.name */
     bool *with;                   /* [effect_count] */
-    const bool *conserve;         /* [coordinate_count] recovered from its momentum; NULL: none */
+    const bool *conserve;         /* [coordinate_count] computed from a momentum; NULL: none */
     bool ledger;                  /* record the balance of energy and momentum */
     bool balance;                 /* overrides.balance */
     double *parameter;            /* [parameter_count] SI */
     double *input;                /* [input_count] SI */
-    const expr **parameter_given; /* expressions of the values */
+    const expr **parameter_given; /* the expressions that give these values */
     const expr **input_given;
     given_value **start_given; /* [coordinate_count][order] a start that is not given is 0 */
     double **start;     /* [coordinate_count][order >= 2] value, rate, ... at the start, SI */

@@ -135,7 +135,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* Reports a missing unit. The hint has the name if `with_name`, or on the command line, if the user typed it. */
+/* Reports a missing unit. The hint has the symbol's name if `with_name`; on the command line, if the user typed it. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };
@@ -279,7 +279,7 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     return made;
 }
 
-/* Do both have the same operators and operands in the same order? */
+/* Do the two expressions have the same operators and operands in the same order? */
 static bool are_same(const expr *a, const expr *b) {
     if (a == NULL || b == NULL || a->op != b->op) {
         return a == b;

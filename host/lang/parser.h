@@ -25,7 +25,7 @@ names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
 /* Adds an entry. The name must be new. */
 named *names_add(names *all, const char *text, size_t length);
-/* Offers declared names to the search: those outside effects, and of effect `effect_index` (-1: none, -2: all). */
+/* Offers to the search the names declared outside effects, and those of effect `effect_index` (-1: none, -2: all). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
 enum { NESTING_MAX = 200 };

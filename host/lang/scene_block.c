@@ -186,7 +186,7 @@ static bool set_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* Reports set symbols of effects that are not selected; at the scene's end, because `with` may follow `set`. */
+/* Reports a `set` for a symbol of an unselected effect. Called at the scene's end, because `with` may follow `set`. */
 static void scene_check_sets(parser *in, const draft *read) {
     const scene *made = read->made;
     for (int i = 0; i < made->set_count; i++) {

@@ -9,8 +9,8 @@
 
 /* === physical quantities: their names in messages, if unambiguous, and their usual units ====== */
 
-/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). A name ""
- * means that there is none; a unit "", that base units are shown. */
+/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). The
+ * name "" means that the quantity has no name; the unit "" means base units. */
 #define QUANTITY_ROWS(X) \
     X(NUMBER, 0, 0, 0, 0, 0, "", "", "") \
     X(ANGLE, 0, 0, 0, 0, 0, "", "", "") \
