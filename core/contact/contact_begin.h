@@ -4,10 +4,10 @@
 
 #include "contact_resolve.h"
 
-/* Finds the contacts that act at the start of a run, before impacts and captures: *still gets, as bits, those at rest,
- * *moving the closing stops and moving holds. A stop acts if its gap is at most round-off, or if it is in `pushed`
- * (bits). A hold acts if its condition is positive, or zero within round-off and not falling. work->law must belong to
- * `s`. */
+/* Finds the contacts that act at the start of a run, before impacts and captures: *still gets, as bits, the contacts at
+ * rest; *moving gets closing stops and moving holds. A stop acts if its gap is at most round-off, or if it is in
+ * `pushed` (bits). A hold acts if its condition is positive, or zero within round-off and not falling. work->law must
+ * belong to `s`. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,

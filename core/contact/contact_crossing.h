@@ -88,7 +88,7 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                     w->mode[k] = (int8_t)-w->mode[k];
                     /* never 0, because 0 means that the crossing has not turned back */
                     w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
-                    /* wider for a second derivative, which may vanish at once, for example if friction sticks */
+                    /* more if the second derivative decided: it may vanish at once, for example if friction sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }
@@ -111,8 +111,8 @@ WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *s
     }
 }
 
-/* Sets the sign of a crossing in work->stands without an event, if the projection of a stop changed the value by more
- * than its magnitude. before[] are the signals before the projection. */
+/* Sets the sign of a crossing in work->stands without an event, if the projection of a stop changed its value by more
+ * than the magnitude that it had before. before[] are the signals before the projection. */
 WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *before, const wh_real *signal) {
     unsigned sides = 0;
@@ -124,9 +124,9 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Sets the sign of each crossing without an event to that of its value. Two kinds stay undecided: a crossing that
- * turned back, until its value is farther than work->due from zero; and a crossing without a sign, until its value has
- * changed by more than |work->stood|. */
+/* Sets the sign of each crossing that has no event to that of its value. Two kinds of crossing are undecided: one that
+ * turned back, until its value is farther than work->due from zero; and one without a sign, until its value has changed
+ * by more than |work->stood|. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;

@@ -10,9 +10,9 @@ typedef struct wh_contact_attempt {
     wh_contact_state next;
     wh_real span;       /* length of the trial step, s; wh_contact_attempt_dipped() sets it */
     wh_margins margins; /* at `next` */
-    /* bits: free stops that open at `next` and, from their gap and its rate there, may have been closed before */
+    /* bits: free stops that open at `next`, with a gap so small that they may have been closed during the trial step */
     unsigned leaving;
-    unsigned dips; /* bits: those open at both ends, perhaps closed in between */
+    unsigned dips; /* bits: those of `leaving` open at both ends, perhaps closed in between */
     int fault;     /* if !sound: the component that left its bounds */
     bool made;
     bool sound; /* `next` is within bounds */
@@ -64,7 +64,7 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
 }
 
 /* Searches the gaps of the stops in a->dips for a negative value. Returns the earliest such time as a fraction of the
- * trial step, or 1. Each probe replaces the end of the interval at which the rate has the same sign. Probes alternate
+ * trial step, or 1. Each probe replaces the interval's end at which the rate has the probe's sign. Probes alternate
  * between the intersection of the end tangents, which suits a distance sqrt(x^2 + y^2), and the zero of a linear rate,
  * which suits a parabola. After a probe with a negative gap, the next one is halfway back to the surface, because the
  * gap of a round post may be undefined at its centre. The search ends if the tangents meet above zero. */

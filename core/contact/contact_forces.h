@@ -111,9 +111,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
 }
 
 /* Solves for all impulses at once, adds them to impulse[forced] and applies them to rate[]. Afterwards J_k q' is
- * target[k] for contacts in `set` (bits). It is zero for free stops in `beside` (bits) and for active contacts other
- * than frictions. A gap may open faster, because stops do not pull. Returns, as bits, the stops that would have to
- * pull. work->law must belong to the position. */
+ * target[k] for contacts in `set` (bits), and zero for free stops in `beside` (bits) and for active contacts other than
+ * frictions. A gap may open faster, because stops do not pull. Returns, as bits, the stops that would have to pull.
+ * work->law must belong to the position. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

@@ -71,7 +71,7 @@ static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_
 }
 
 /* True if stop k comes to rest instead of bouncing with `speed`: a force presses the body onto the stop, and the flight
- * would be shorter than WH_REST_SHARE of the step, or m->last is set. Without such a force, `speed` must be zero. */
+ * would be shorter than WH_REST_SHARE of the step, or m->last is set. Without a force, it rests if `speed` is zero. */
 static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_contact_moment *m, wh_real speed,
                                     const wh_real *accel, const wh_real *rate) {
@@ -175,9 +175,9 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
 }
 
 /* Resolves the impact of the stops in `hits` (bits): each bounces, or rests if its flight would be too short. A stop
- * that comes to rest gets one impulse: a bounce and an impulse back would release other stops. A resting stop that the
- * impact releases rests again if its flight would be too short, because a body in a corner would otherwise bounce for
- * ever. Returns `hits` and the stops that close at the same time. */
+ * that comes to rest gets one impulse, because a bounce and a second, opposite impulse would release other stops. A
+ * resting stop that the impact releases rests again if its flight would be too short, because a body in a corner would
+ * otherwise bounce for ever. Returns `hits` and the stops that close at the same time. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -255,9 +255,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* Moves bodies that are beyond free stops (by more than round-off if `coarse`) back onto them. The displacement is the
- * smallest one in the metric of the mass matrix, and stops push and do not pull. Returns, as bits, the stops that were
- * passed and those that pushed. Afterwards signal[] and work->law belong to the new state. */
+/* Moves bodies that are beyond free stops back onto them; if `coarse`, only those beyond by more than round-off. The
+ * displacement is the smallest in the metric of the mass matrix. Stops push, and pull only after too large a push.
+ * Returns, as bits, the stops that were passed or that pushed. Then signal[] and work->law belong to the new state. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -407,7 +407,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
-                /* after a larger move, the limit would not come from the held expression */
+                /* a larger move means that the condition hardly depends on the held expression */
                 wanted[i] = by;
                 mover = k;
             }

@@ -49,10 +49,10 @@ typedef struct wh_contact_set {
 
 /* Finds redundant contacts whose wanted acceleration (in an impact, rate) the other contacts do not produce. Examples:
  * at a dead centre two rows are parallel, but only one of the paths is curved; two stops on one path have different
- * restitutions. push[] gets the sign of the missing part, 1 or -1, for each contact in `repeats` (bits of indices in
- * member[]), or 0. way[] is the change of the accelerations by all forces or, if impulse[] is not NULL, of the rates by
- * all impulses. The curvature term J' q' is also tested by itself: in a slow motion the round-off of the accelerations
- * would hide it. */
+ * restitutions. For each contact in `repeats` (bits of indices in member[]), push[] gets the sign of the missing
+ * acceleration or rate, or 0. way[] is the change of the accelerations by all forces or, if impulse[] is not NULL, of
+ * the rates by all impulses. The curvature term J' q' is also tested by itself: in a slow motion the round-off of the
+ * accelerations would hide it. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -295,7 +295,7 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* counts even if round-off hides it */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* gives way, even within round-off */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }

@@ -265,8 +265,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     }
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* interval widths before the last two probes */
-    wh_real most =
-        WH_PROBES_SPARE; /* largest interval from which halving still reaches WH_BRACKET */
+    /* largest interval after the next probe from which the remaining probes reach WH_BRACKET by halving */
+    wh_real most = WH_PROBES_SPARE;
     for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
         const wh_real width = high - low;
         wh_real root = high;

@@ -20,7 +20,7 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
 /* Adds the product a b to *sum, and its round-off to *rest, because the round-off would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
-    *sum += a * b; /* exact if opposite rotations cancel */
+    *sum += a * b; /* the sum is exact if opposite rotations cancel */
 }
 
 /* Returns the displacement of a straight hold k, rad or m: its constant J_k times the change of the coordinates. */
@@ -36,9 +36,8 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
         wh_contact_add_product(row[i], to->angle[i] - from->angle[i], &turns, &rests[0]);
 #else
         const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
-        const int32_t way =
-            /* less than half a turn; the next lines split `way` into two parts that are exact in float */
-            (int32_t)(uint32_t)turned;
+        /* the change is less than half a turn; the next lines split it into two numbers that are exact in float */
+        const int32_t way = (int32_t)(uint32_t)turned;
         wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
         rests[0] += row[i] * (wh_real)(way & 255);
 #endif
@@ -222,8 +221,8 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Returns the sum of the magnitudes of the terms of contact k's expression, the scale of its round-off; 1 rad for each
- * angle. */
+/* Returns the sum of the magnitudes of the terms of contact k's expression, the scale of its round-off. Each angle
+ * counts as 1 rad. */
 static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -234,8 +233,8 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Below minus this fraction of wh_contact_extent(), a gap means that the body is beyond the stop; above it, that the
- * body has left the stop. */
+/* With F this fraction of wh_contact_extent(), a body with a gap below -F is beyond the stop, and one with a gap above
+ * F has left it. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {

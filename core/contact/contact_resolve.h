@@ -62,7 +62,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
-        /* only during the projection */
+        /* the stops are active only during the projection */
         wh_contact_set_modes(of, w, passed, WH_ACTIVE);
         wh_real before[2 * WH_CONTACTS_MAX];
         wh_contact_remember(of, signal, before);
@@ -101,10 +101,10 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
 }
 
 /* Sets the direction of each sliding friction to the sign of its rate, with two exceptions:
- * - If the error of location left the rate on its old side of zero, the old direction stays.
- * - A friction whose rate has just come to zero sticks until wh_contact_give_way() decides. Such a rate is negligible,
- * compared with its change by friction in the time h. Or the friction is in `zeros` (bits), and no impulse of this
- * moment changed the rate.
+ * - A rate that is opposite to the direction only by the error of location (work->slack) does not change it.
+ * - A friction whose rate has just come to zero sticks until wh_contact_give_way() decides. There are two such cases:
+ * the rate is negligible, compared with its change by friction in the time h; or the friction is in `zeros` (bits), and
+ * no impulse of this moment changed the rate.
  *
  * If h is not 0, work->law must belong to the position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
@@ -275,7 +275,7 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
 }
 
 /* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces keep the
- * rate growing. Stuck coordinates that were moved slide. */
+ * rate growing. A stuck friction slides if an impulse has changed its rate. */
 static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                       const wh_real *input, wh_contact_state *s) {
     wh_contact_moment end = {0, 0, h, true};

@@ -331,7 +331,7 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     if (p->round == WH_EVENTS_MAX) {
         p->overran = p->overran || !p->calm;
         wh_contact_overrun(of, w, p->h, p->input, &a->next);
-        p->calm = false; /* the values after the repair must also be finite */
+        p->calm = false; /* the values after wh_contact_overrun() must also be finite */
     }
     p->end = &a->next;
     p->done = true;

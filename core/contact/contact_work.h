@@ -153,12 +153,12 @@ static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contac
     }
 }
 
-/* True if a contact with a force is of this kind. */
+/* True if any of the contacts that have a force is of this kind. */
 WH_INLINE bool wh_contact_any_of(const wh_contact_system *of, wh_contact_kind kind) {
     return (of->kinds & WH_KIND_BIT(kind)) != 0;
 }
 
-/* True if contact k, which has a force, is of this kind. A constant if all contacts are of one kind. */
+/* True if contact k, which has a force, is of this kind. The result is a constant if all contacts are of one kind. */
 WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact_kind kind) {
     return wh_contact_any_of(of, kind) &&
            (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
