@@ -1,5 +1,5 @@
-/* apart.c: start values that satisfy the holds. Newton's method finds the positions, one linear step the rates, each
- * with the smallest change. A start value that the scene sets changes only if changing the others is not enough. */
+/* apart.c: start values that satisfy the holds. Newton's method finds the positions, one linear step the rates;
+ * each step changes them as little as possible. Start values that the scene sets change only if they must. */
 #include "apart.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A nonzero hold expression is an error if it is below this part of its scale terms(); a larger value is intended. */
+/* A nonzero value of a hold's expression is an error if it is below this part of terms(); a larger one is intended. */
 #define OFF_MOST 0.5
 /* The holds' conditions are evaluated this many steps after the start, because a condition may become false at once. */
 #define SOON 1e-6
@@ -24,7 +24,7 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* active holds at the start */
     int holds;
-    bool vanishes[HOLDS]; /* has_zero(); false for a distance, which is never negative */
+    bool vanishes[HOLDS]; /* the expression changes its sign (has_zero()), unlike a distance */
     bool closes;          /* some hold has an error below OFF_MOST */
     double x[2 * N];      /* [2 n] positions, then rates */
 } apart;

@@ -77,7 +77,7 @@ double books_swing_J(const books *b) {
 /* --- round-off ---------------------------------------------------------------------------------*/
 
 #define FLOAT_LEAST 0x1p-126 /* smallest normal float */
-#define SUMS_OF_A_STEP 8.0   /* roundings of each ledger entry in a step with stages and events */
+#define SUMS_OF_A_STEP 8.0   /* roundings of a ledger entry per step, by its stages and events */
 #define SLOPE_SHARE 0x1p-20  /* relative change of a component to measure the energy's slope */
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
@@ -103,7 +103,7 @@ static double unit_rounding(const engine_kind *kind) {
 
 typedef struct state_rounding {
     double by;     /* round-off of a state component in one step */
-    double change; /* of the component, to measure the energy's slope */
+    double change; /* change of the component that measures the energy's slope */
 } state_rounding;
 
 static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
@@ -316,7 +316,7 @@ static bool find_rateless(books *b) {
 
 enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are searched */
 #define FRAME_ASIDE_S 1e-5 /* half the duration of the motion in momenta_change(), s */
-#define FRAME_LEAST 1e-6   /* a smaller part of the largest change of a momentum is round-off */
+#define FRAME_LEAST 1e-6   /* momentum changes below this part of the largest one are round-off */
 
 /* change[]: by how much each momentum falls in 2 FRAME_ASIDE_S around random state number `draw`. False: not finite. */
 static bool momenta_change(books *b, int draw, double *change) {

@@ -1,9 +1,9 @@
 /* books.h: the energy and momentum balance of a run, integrated in double during the run.
  *
- * The balanced energy is T + V, or the energy integral if that differs (host/derive/equations.h). The powers are sums
- * of the ledger's (core/ledger.h). The run integrates the ledger in its own number type, with the stages of its method.
- * The balance checks the ledger, so it uses another rule: Simpson's, on the states at the ends of steps, with the order
- * of RK4. Inputs keep their start values. The residual is the numerical error of the run and of Simpson's rule. */
+ * The balanced energy is T + V, or the energy integral if that differs (host/derive/equations.h). The input and loss
+ * powers are sums of powers in the ledger (core/ledger.h). The run integrates the ledger in its own number type, by the
+ * stages of its method. The balance checks the ledger by another rule: Simpson's, of order 4 like RK4, on the states at
+ * the ends of steps. Inputs keep their start values. The residual is the error of the run and of Simpson's rule. */
 #ifndef CHECK_BOOKS_H
 #define CHECK_BOOKS_H
 
@@ -50,7 +50,7 @@ typedef struct books {
     spread stored;
     spread *rate; /* [count] */
     spread *push; /* [count] momenta without rateless[] */
-    bool *frame;  /* [count] part of a conserved sum: the mean depends on the frame of reference */
+    bool *frame;  /* [count] the momentum is in a conserved sum, so its mean depends on the frame */
     double *rateless;   /* [count] part of a momentum that reversing all rates does not change */
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
@@ -83,12 +83,12 @@ book_account books_account(const books *b);
 double books_momentum(const books *b, int unknown);
 /* The largest swing of T, of V, or of a rate times half its momentum. Swing: range of a sine of equal variance. */
 double books_swing_J(const books *b);
-/* Largest sampled energy change by the round-off of one step, in numbers of this kind: of the state, the accelerations
- * and the integrated powers. *computing_J: largest sampled round-off of one evaluation of the energy, in double. */
+/* Largest sampled energy change by the round-off of one step: of state and accelerations in numbers of this kind, and
+ * of powers in double. *computing_J: largest sampled round-off of one evaluation of the energy, in double. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
-/* Error bound of the integration rule. A single last step, a trapezoid, counts as pair_J; infinite after one step. */
+/* Error bound of Simpson's rule. If the number of steps is odd, the last step counts as pair_J. One step: infinite. */
 double books_rule_J(const books *b);
-/* Energy lost to underflow in all steps, in the ledger of a float run with contacts. books_rounding_J() comes first. */
+/* Energy lost to underflow in all steps, in the ledger of a float run with contacts. Call books_rounding_J() first. */
 double books_lost_J(const books *b);
 
 #endif

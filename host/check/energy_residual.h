@@ -2,11 +2,11 @@
  *
  * The residual is the change of the energy (T + V, or the energy integral if that differs) minus the work of inputs,
  * losses and contacts; zero for an exact solution. The ratio is |residual| divided by the largest entry of the balance.
- * Entries are changes, sums or means over time, because a single state near a singular position would dominate them.
+ * An entry is a change, a sum or a mean over time: a state near a singular position would dominate a maximum.
  * docs/dev/events.md#the-energy-residual lists the entries, and the allowance for round-off.
  *
  * With --matrix exact the steps have no error, but the integration of the powers has one: the difference of two rules
- * counts as round-off. With --stabilized the larger residual counts, with or without the energy corrections. */
+ * counts as round-off. With --stabilized the larger of the residuals with and without energy corrections counts. */
 #ifndef CHECK_ENERGY_RESIDUAL_H
 #define CHECK_ENERGY_RESIDUAL_H
 

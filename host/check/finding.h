@@ -22,8 +22,8 @@ typedef enum finding_id {
 /* Findings about the scene's start. No other step or number type removes them. */
 #define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
-/* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` end with exit status 1, with a note
- * they end with 0. run_checks.c reports a small FINDING_MASS as a note. */
+/* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` end with exit status 1. After
+ * notes alone they end with 0. run_checks.c reports FINDING_MASS as a note if its value is small. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
 /* --strict: with STRICT_OFF the exit status stays 0. With STRICT_FINDINGS it is 1 if there are warnings. A positive
@@ -43,9 +43,9 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* FINDING_ACCURACY: the error of a coordinate reaches RUN_CHECKS_TOLERANCE of its range at until_s, in the first half
- * of the run. It is reported if it reached RUN_CHECKS_EARLY_TOLERANCE before until_s / RUN_CHECKS_GROWS, or in the
- * first RUN_CHECKS_BEGIN of the run. Otherwise it grew as fast as in a chaotic motion, and no smaller step helps. */
+/* FINDING_ACCURACY: the error of a coordinate or rate reaches RUN_CHECKS_TOLERANCE of its range at until_s, in the
+ * run's first half. The error is reported if it reached RUN_CHECKS_EARLY_TOLERANCE before until_s / RUN_CHECKS_GROWS,
+ * or before RUN_CHECKS_BEGIN times the run's end. Otherwise it grew as in a chaotic motion: no smaller step helps. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
@@ -54,10 +54,10 @@ extern const finding_row finding_rows[FINDINGS];
  * RUN_CHECKS_SUDDEN_STEPS steps, except in the first 2 RUN_CHECKS_SUDDEN_STEPS steps of the run. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry; invisible in a plot. */
+/* FINDING_ENERGY: limit of |residual| / (largest entry) before the run's end; less is invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* FINDING_EVENTS ignores the last bounces before a rest. Their steps are at most 1 plus RUN_CHECKS_RESTS_STEPS of all
- * steps, and change the energy by at most RUN_CHECKS_RESTS of the largest entry. */
+/* FINDING_EVENTS ignores the last bounces before a rest: at most 1 + RUN_CHECKS_RESTS_STEPS * (steps of the run) steps,
+ * if together they change the energy by at most RUN_CHECKS_RESTS times the largest entry. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

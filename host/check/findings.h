@@ -9,7 +9,7 @@
 
 /* Prints findings, "whirl run: warning: ... [word]", and tried remedies. `fails`: the energy finding is an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
-/* The text of a reported finding, and its coordinate or contact; findings_where() false: it is about the whole run. */
+/* findings_message(): text of a reported finding. findings_where(): its column or contact; false: it has none. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);

@@ -21,8 +21,8 @@
 #define FLOAT_STAYS 3e-7 /* in float, a range up to this part of the magnitude is round-off */
 #define BESIDE_OTHERS 1e-3
 #define STARTS 1e-12 /* a computed start value up to this, in SI units, counts as zero */
-/* Both runs may have the same round-off if its bound exceeds BOUND_OVER times the error to be detected. The bound is
- * about 20 times the round-off, or 8 times if that is equal at all states, as of a root of a nearly constant value. */
+/* Both runs may have the same round-off if its bound exceeds BOUND_OVER times the error to be detected. A bound is
+ * about 20 times the round-off; 8 times if the round-off is equal at all states, as of a root that hardly changes. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -50,7 +50,7 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off, as large as `least`? In a constant column, least_size() is a limit, too. */
+/* May both runs have the same round-off, as large as `least`? In a constant column also as large as least_size()? */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
@@ -133,7 +133,7 @@ void horizon_free(horizon *h) {
 
 /* Steps of the third run per step of the run: above one for accuracy, and far from simple ratios. */
 #define STEPS 1.41
-/* Allowance for the third run's own error, in differences between the run and the finer run. */
+/* Allowance for the third run's own error, as a multiple of the difference between the run and the finer run. */
 #define ITS_OWN 2.0
 #define ALIKE 1e-9 /* a smaller difference, in SI units, does not count */
 

@@ -14,7 +14,7 @@
 
 typedef enum horizon_verdict {
     HORIZON_TO_THE_END,
-    HORIZON_UNTIL,    /* until_s */
+    HORIZON_UNTIL,    /* the column is accurate only up to until_s */
     HORIZON_STILL,    /* the column is constant, so it is accurate to the end */
     HORIZON_ROUNDING, /* only round-off changes the column, so it counts as constant */
     HORIZON_UNKNOWN,  /* unknown: too few digits in both runs, or an angle too large for a sine */
@@ -27,7 +27,7 @@ typedef struct horizon_column {
     double range;
     double rounding; /* bound on the round-off in the finer run */
     double off;      /* largest difference of both runs, plus the finer run's own error */
-    double until_s;  /* last comparison within the tolerance, or the end of the run */
+    double until_s;  /* time of the last comparison within the tolerance, or the end of the run */
 } horizon_column;
 
 typedef struct horizon {
@@ -52,7 +52,7 @@ void horizon_free(horizon *h);
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */
-/* Prints the run, each coordinate and rate, and the balances. `b`: NULL for a system without energies. */
+/* Prints until when each coordinate and rate is accurate, and the balances. `b`: NULL for a system without energies. */
 void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance);
 /* Prints one line for a summary. `doubted`: a finding against the run may affect the finer run, too. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);

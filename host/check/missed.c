@@ -174,7 +174,7 @@ static jet chain(jet u, jet of, int order) {
     return of;
 }
 
-/* The jet of a kink between the branches a and b: its slope is between theirs, and it has no curvature. */
+/* The jet of a kink between the branches a and b: its slope is between theirs, and its curvature is unknown. */
 static jet either(jet a, jet b, enclosure value) {
     const bool sloped = enclosure_is_finite(a.f[1]) && enclosure_is_finite(b.f[1]);
     return (jet){{value, sloped ? enclosure_hull(a.f[1], b.f[1]) : unknown, unknown}};
@@ -204,7 +204,7 @@ static jet sign_of(jet a) {
 
 static enclosure inverse(enclosure a) { return enclosure_div(enclosure_of(1.0), a); }
 
-/* u^e, for u > 0 if e is not a whole number. */
+/* u^e; if e is not a whole number, negative values of u are left out. */
 static enclosure power(enclosure u, double e) {
     const bool whole = number_nearest(e) == e;
     return enclosure_power(whole || !(u.low < 0.0) ? u : (enclosure){0.0, u.high}, enclosure_of(e));
@@ -460,8 +460,8 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 #define HALVINGS 24    /* most halvings of a path */
 #define PARTS_MOST 400 /* most parts of a path that are tested for one contact or coordinate */
-/* A negative margin() is a mere touch if it is below TOUCH times both the larger margin at the ends and its change over
- * the path. It is round-off if it is below WIDTHS times the width of the bounds at the middle of the part. */
+/* A negative margin() is a mere touch if its size is below TOUCH times the larger margin at the ends, and below TOUCH
+ * times its change over the path. It is round-off below WIDTHS times the width of the bounds at the part's middle. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
 /* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends. The
@@ -666,7 +666,7 @@ static double middle_of(taylor_bounds *a, int result) {
 /* Friction k: each number is the larger of those at both ends of the path. */
 typedef struct met {
     double turns; /* acceleration per unit of friction force */
-    double load;  /* force that keeps it stuck; infinite if other contacts act */
+    double load;  /* friction force that sticking needs; infinite if other contacts act */
     double rate;  /* sliding speed */
 } met;
 
@@ -697,7 +697,7 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Between the ends of the path, is a sliding friction's limit far larger, or a sticking friction's too small? */
+/* Inside the path, is a sliding friction's limit far above that at its ends, or a sticking one's too small to stick? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -735,7 +735,7 @@ static int look_edge(missed *m, int i, double low, double high, double most) {
                                                               : -1;
 }
 
-/* Does the slope of stop k's gap jump on the path? It does not if both ends are on an edge. */
+/* Does the slope of stop k's gap jump on the path? False if both ends of the path are on an edge. */
 static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {

@@ -1,14 +1,14 @@
-/* missed.h: detects contacts and forces that act only between the ends of a step. The core does not evaluate them, nor
- * may a step of half the length. Examples are a latch, a crossing that is crossed back, a thin stop, a narrow peak of a
- * force, and a friction limit that changes briefly.
+/* missed.h: detects contacts and forces that act only between the ends of a step. The core does not evaluate them; a
+ * run with half the step may miss them, too. Examples are a latch, a crossing that is crossed back, a thin stop, a
+ * narrow peak of a force, and a friction limit that changes briefly.
  *
  * The path of a step is the cubic through the positions and rates at its ends; events split the step into several
  * paths. Taylor forms bound each gap and condition on the path. Halving the path finds a point inside the contact, or
  * excludes one; else the contact is reported as undecided.
  *
  * Accelerations with a kink, an exponential or a hyperbolic function are bounded in the same way. A force is missed if
- * the acceleration far exceeds those at both ends and would change the rate noticeably. Limits of frictions that are
- * not constant are bounded, too. A change of the limit is missed if it is far larger between the ends of a sliding
+ * the acceleration far exceeds those at both ends and would change the rate noticeably. Friction limits that are not
+ * constant are bounded, too. A change of the limit is missed if it is far larger between the ends of a sliding
  * path, or too small to keep a sticking friction stuck.
  *
  * A stop's gap with abs, max, min or sign may have edges. The core keeps a resting body on its face, even beyond an

@@ -12,7 +12,7 @@
 
 /* === a pole on the way =========================================================================== */
 
-enum { HALVINGS = 56 }; /* these locate a share of the path to its last digit */
+enum { HALVINGS = 56 }; /* halvings that locate a zero on the path to the last digit of its share */
 #define FARTHER 2.5     /* factor on the distance if round-off hides the growth of a value */
 /* An expression whose sign alternates TURNS_MOST times near a place is round-off, because a smooth one has few zeros
  * there. The tested distances grow by FURTHER, up to the part NEAR of the path on that side. */
@@ -26,7 +26,7 @@ enum { TURNS_MOST = 4 };
 enum { SECTIONS = 72 };
 enum { PARTS_MOST = 16 }; /* most rejected places on the path of a step */
 
-/* Number of sampled distances, each GROWTH_CLOSER times smaller than the one before. That is no power of two: numbers
+/* Number of sampled distances, each GROWTH_CLOSER times smaller than the one before. This is no power of two: numbers
  * with the same digits have the same round-off, which would look like steady growth. */
 enum { GROWTH_POINTS = 10 };
 #define GROWTH_CLOSER 1.7099759466766968 /* the third root of 5 */
@@ -631,7 +631,7 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* The image's expression for a value; for a slope, the first equation with that highest derivative. */
+/* The index of the image's expression for pole_way's value[value]; for a slope, that of the first equation with it. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {

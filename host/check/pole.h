@@ -1,6 +1,6 @@
 /* pole.h: detects steps that jump over a pole, or through a contact (missed.h). No motion passes a state at which an
  * expression grows without bound, such as x'/(v0 + x') at x' = -v0. But a step over the pole does not evaluate the
- * expression near it. Nor may a step of half the length, so that the run and its finer run agree.
+ * expression near it. A step of half the length may not either; then the run and its finer run agree.
  *
  * Values that change their sign at a pole are evaluated after each step. After a sign change the path between the two
  * states is tested for a pole. In a step with events, divisors that depend on values set by the event are not tested:

@@ -167,7 +167,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* Is column k a float turn angle with an error of at most two units, to which it is rounded? */
+/* Is column k a float turn angle with an error of at most two of the units to which it is rounded? */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->doubling->column[k];
     const int own = image_find_component(v->image, v->doubling->shape->column[k].unknown, 0);
@@ -194,8 +194,8 @@ static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
            until_s >= RUN_CHECKS_GROWS * early_s;
 }
 
-/* Did the error of a position grow within a few steps? Then they do not resolve the motion, as near a singularity of
- * the coordinates. In a resolved chaotic motion errors grow more slowly. */
+/* Did the error of a position grow within a few steps? Then the steps do not resolve the motion, as near a singularity
+ * of the coordinates. In a resolved chaotic motion errors grow more slowly. */
 static bool is_sudden(const run_checks *v, int k, double until_s, double early_s) {
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
     return v->image->contacts == 0 && v->doubling->shape->column[k].primes == 0 &&

@@ -14,8 +14,8 @@
 typedef struct finding {
     bool reported;
     double value;  /* measured, in the unit of its finding_row */
-    double at_s;   /* begin, or time of one event; below 0: the whole run */
-    int component; /* the component or contact concerned, or -1 */
+    double at_s;   /* when the problem occurs or begins, s; below 0: in the whole run */
+    int component; /* column (accuracy, aliased) or missed_found.what (missed); else -1 */
 } finding;
 
 typedef struct run_checks {

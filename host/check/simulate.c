@@ -318,7 +318,7 @@ static void name_course(simulation *sim) {
     free(label);
 }
 
-/* Writes the settings next to a CSV file of the same name. */
+/* Writes the settings of the run to a TOML file, named after the CSV file. */
 static bool write_about(const simulation *sim) {
     char *facts = about_facts(sim->image, sim->settings->kind, sim->run);
     char *tables = about_tables(sim->image);

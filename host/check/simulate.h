@@ -28,7 +28,7 @@ typedef struct simulation_settings {
 typedef enum simulation_result {
     SIMULATION_DONE,
     SIMULATION_FAILED,      /* diverged, or NaN; reported on standard error, records are kept */
-    SIMULATION_INTERRUPTED, /* host/os/system.h */
+    SIMULATION_INTERRUPTED, /* by the user (host/os/system.h) */
     SIMULATION_BAD_FILE     /* a file could not be written, or gnuplot failed; reported */
 } simulation_result;
 

@@ -9,7 +9,7 @@
 #include "host/engine/loop.h"
 #include "host/number/functions.h"
 
-#define EVALUATIONS_OF_EVENTS 8.0 /* estimate per step of the search for events */
+#define EVALUATIONS_OF_EVENTS 8.0 /* estimated evaluations per step by the search for events */
 
 /* --- other roundings of constants ---------------------------------------------------------------------*/
 /* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
@@ -286,7 +286,7 @@ static void take_rounding(step_doubling *t) {
         }
         const int result = result_of(r->list.image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* A state without a bound is at a pole, or at a root of nearly zero; it counts only if most are so. */
+            /* A state without a bound is at a pole, or at a root of nearly zero; it counts only if most states are. */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));

@@ -69,7 +69,7 @@ typedef struct step_doubling {
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */
     wh_status status;             /* of the run's last step */
-    void *run;                    /* the final state */
+    void *run;                    /* the caller's run */
     bool unwrapped;        /* the finer run failed at an angle beyond the range of double's sine */
     double finer_failed_s; /* begin of the step in which the finer run failed; below 0: none */
     double overrun_s;      /* begin of a step of either run with too many events; below 0: none */
