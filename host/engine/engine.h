@@ -18,7 +18,7 @@ typedef struct engine_clamped {
     uint64_t count;
     int contact;    /* the stop */
     double value;   /* the restitution */
-    double begin_s; /* of the step */
+    double begin_s; /* begin of the step with the impact, s */
 } engine_clamped;
 
 /* The motion between two events of a step, or between an event and an end of the step. */
@@ -53,9 +53,9 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the residuals); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* The round-off of component i, angles first, whose increments are rounded to whole units: the largest magnitude of
-     * its sum since the start. *span: the component's range without round-off. Both SI. If unit() is NULL, only turn
-     * angles are rounded, in float to 2^-32 turn. 0 in double, and with compensated sums. */
+    /* The largest |summed round-off| of component i, angles first, since the start: each increment is rounded to whole
+     * units. *span: the component's range without round-off. Both SI. If unit() is NULL, only turn angles are rounded,
+     * in float to 2^-32 turn. Returns 0 in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
@@ -69,7 +69,7 @@ typedef struct engine_kind {
 /* Number of list operations that this process has evaluated; the same on every machine. Other work counts as the
  * operations that would take as long, within a third. */
 extern uint64_t engine_operations;
-/* Number of operations of one evaluation of the accelerations, with its share of the method and the contacts. */
+/* Number of operations of one evaluation of the accelerations, and of the method's and contacts' work for it. */
 uint64_t engine_evaluation(const image *im);
 
 extern const engine_kind engine_float;

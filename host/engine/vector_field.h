@@ -12,14 +12,14 @@ typedef struct vector_field {
     int n;           /* components of the state */
     state_list list; /* list of the role IMAGE_BOOKS */
     int *
-        next; /* [n] component that is the slope of component i; -1 - unknown: a highest derivative */
+        next; /* [n] the component that is component i's slope; -1 - u: the highest derivative of unknown u */
 } vector_field;
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind);
 void vector_field_close(vector_field *f);
 
 void vector_field_slope(vector_field *f, const double *x, double *slope);
-/* off[n]: bounds on the double round-off of the last slope's highest derivatives, at the same state; else 0. */
+/* off[n]: round-off bounds, in double, of the last slope: for highest derivatives; else 0. `x`: that slope's state. */
 void vector_field_rounding(vector_field *f, const double *x, double *off);
 
 #endif
