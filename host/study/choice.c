@@ -20,7 +20,7 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* The bound compared with a limit: the lower one if the figure is a prediction that will be counted (`hopeful`). */
+/* The bound compared with a limit: of a prediction that will be counted (`hopeful`) the lower one, else the upper. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_request *w, const table *made, int i) {
@@ -67,7 +67,7 @@ static double figure_of(const table *made, const choice_row *row, int kind) {
                                            : of->result.error;
 }
 
-/* Rows are entered by rising price, so the cheapest of equal rows is chosen. */
+/* Rows are entered in the order of their price, so that of rows with equal figures the cheapest is chosen. */
 static void enter(choice *c, const table *made, const choice_row *row) {
     for (int i = 0; i < CHOICES; i++) {
         const double figure = figure_of(made, row, i);
@@ -93,11 +93,12 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
 
 /* --- counting --------------------------------------------------------------------------------------*/
 
-#define RUN_INSTRUCTIONS 1e9 /* most instructions of a run on an emulator: about ten seconds */
-/* Assumed price of an evaluation for a number type without a counted run: low, so that one such run is counted. */
+#define RUN_INSTRUCTIONS 1e9 /* most instructions of a counted run: an emulator takes ten seconds */
+/* Assumed price of an evaluation until a run with its number type is counted: low, so that such a run is chosen. */
 #define UNTRIED 1e-3
 
-/* With contacts: predicts each uncounted run from the counted cost of an evaluation with its number type. */
+/* With contacts: predicts the longest step of each uncounted run as its evaluations times each[], the price of an
+ * evaluation by number type. `last`: the counted row that updates each[], or NULL. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {
@@ -116,7 +117,7 @@ static void expect(const trials *t, table *made, const table_row *last,
     }
 }
 
-/* Drops rows with runs that are too long to count. */
+/* Drops rows whose runs are too long to count. */
 static void drop_long(const trials *t, table *made) {
     int kept = 0;
     for (int i = 0; i < made->count; i++) {
@@ -315,7 +316,7 @@ static void print_answer(FILE *out, const trials *t, const choice_request *w, co
     free(derive);
 }
 
-/* Rounds up to two digits. */
+/* Rounds upwards, to two significant digits. */
 static double no_less(double value) {
     double unit = 1.0;
     while (value / unit >= 100.0) {
@@ -353,7 +354,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
     bool none = true;
     fputs("\nwhat would fit\n", out);
     for (int i = CHOICE_WEAKER; i < CHOICES; i++) {
-        /* CHOICE_ANY: clock and memory are both too small */
+        /* CHOICE_ANY raises clock and memory: print it only if raising one of them is not enough */
         const bool alone = c->of[CHOICE_DEARER].row < 0 && c->of[CHOICE_LARGER].row < 0;
         if (c->of[i].row >= 0 && (i != CHOICE_ANY || alone)) {
             print_remedy(out, t, made, w, &c->of[i]);

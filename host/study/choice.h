@@ -20,14 +20,14 @@ typedef struct choice_request {
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of the RAM with the stack; 0: no limit */
-    bool counts; /* chosen rows will be counted, so a prediction may exceed a limit by its error */
+    bool counts; /* chosen rows will be counted: of a prediction, only the lower bound is limited */
     const char *prices; /* the source of the prices, in words */
 } choice_request;
 
 /* A row compared with the limits. load: the part of real time that steps take if all are as long as the longest. */
 typedef struct choice_row {
     int row;      /* index of the row in the table, or -1 */
-    double worst; /* bound on cycles or instructions per simulated second, by the longest step */
+    double worst; /* cycles or instructions per simulated second, if all steps were the longest */
     double load;  /* 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */

@@ -19,8 +19,8 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* Boards without counted cycles have a range of cycles per instruction. The least is that of the largest issue width.
- * The most is two to three times that of a Cortex-M4, 1.2 to 1.7 by Arm's timing. */
+/* Boards without counted cycles have a range of cycles per instruction. Its lower end assumes the core's largest issue
+ * width. Its upper end is two to three times the 1.2 to 1.7 cycles of a Cortex-M4 (Arm's timing). */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
@@ -48,8 +48,8 @@ const cost_board *cost_board_named(const char *name) {
 
 /* Lists with more operations become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
-enum { REGISTERS = 16 }; /* values of the state and its stages that registers of the FPU contain */
-enum { SUMS_CARRIED = 9 }; /* additions of compensated sums for each real, with a matrix */
+enum { REGISTERS = 16 };   /* number of state and stage values that FPU registers hold */
+enum { SUMS_CARRIED = 9 }; /* additions by compensated sums per real, in a step by a matrix */
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
     c->run[class] += run;
@@ -83,7 +83,7 @@ typedef struct times {
     double once;   /* of depth 0 */
 } times;
 
-/* 0: operation i is the same at every stage; 1: it depends on positions; 2: on rates. depth[]: of earlier ones. */
+/* 0: operation i has the same value at all stages; 1: it depends on positions; 2: on rates. depth[]: those before i. */
 static int depth_of(const op_list *t, int i, const int *depth) {
     const op *o = &t->ops[i];
     int operand[2];
@@ -396,7 +396,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number != COST_FIXED && !cost_takes_method(im)) {
         return (cost){.why = "this method is not possible for this scene"};
     }
-    if (im->contacts > 0) { /* the board's compiler lays out the memory of contacts */
+    if (im->contacts > 0) { /* state_bytes is unknown, too: the compiler lays out contacts */
         return (cost){.why = "the cost of contacts depends on the motion, so whirl must count it "
                              "in a run"};
     }

@@ -122,7 +122,7 @@ typedef struct cost_row {
     cost_quantity quantity;
     double within;  /* nine of ten counted steps are within this factor of the prediction */
     double longest; /* the longest step divided by the mean step; 1 for bytes */
-    double figure[COST_CLASSES]; /* of one operation; COST_UNSEEN: in no counted step */
+    double figure[COST_CLASSES]; /* of one operation; COST_UNSEEN: no counted step had one */
 } cost_row;
 
 #define COST_UNSEEN (-1.0)
@@ -142,7 +142,7 @@ typedef struct cost_figure {
 typedef struct cost {
     const char *why;                /* reason for unknown figures, in words, or "" */
     cost_figure instructions;       /* of a step, mean of a run */
-    cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
+    cost_figure instructions_worst; /* of the longest step; with contacts far above the mean */
     cost_figure cycles;             /* of a step, mean of a run */
     cost_figure cycles_worst;
     /* The smallest firmware around the scene, which steps and computes the outputs (boards/programs/size.c): */
@@ -169,7 +169,7 @@ enum { COST_COLUMNS = 15 };
 /* Cuts a row at its commas outside quotes. Returns false unless it has this number of columns. */
 bool cost_cut(char *row, char **column, int columns);
 
-/* The columns of a row of counts; the last three are the bytes. */
+/* The number of columns in a row of counts, and indices of some. The last three are bytes of flash, RAM, stack. */
 typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;

@@ -184,7 +184,7 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
 
 /* --- its values --------------------------------------------------------------------------------*/
 
-/* Reads FROM or TO as an expression, and sets the axis's symbol. The hint for a missing unit is the whole range. */
+/* Reads FROM or TO as an expression, and sets the axis's symbol. A hint about a missing unit shows the whole range. */
 static const expr *read_end(const mechanism *of, const range_text *r, const char *text,
                             struct arena *arena, diags *errors, axis *made) {
     if (strcmp(r->name, "step") == 0) {
@@ -235,7 +235,7 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
 static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
                       diags *errors, axis *made) {
     struct arena *arena = arena_new();
-    /* TO first: if both lack a unit, the hint adds it to TO, and FROM then has the unit of TO */
+    /* TO is read first: if both ends lack a unit, the hint adds it to TO, whose unit FROM then takes */
     const expr *to = read_end(of, r, r->to, arena, errors, made);
     const expr *from = to == NULL ? NULL : read_end(of, r, r->from, arena, errors, made);
     diags_flush(errors, stderr);
@@ -293,7 +293,7 @@ void grid_free(grid *g) {
     *g = (grid){0};
 }
 
-/* The value at this share between the logarithms of the ends, also if the ends' ratio overflows. */
+/* The value at the part `share` of the axis, on a logarithmic scale. The ratio of the ends may overflow. */
 static double log_value(const axis *a, double share) {
     const double ratio = a->to / a->from;
     if (isfinite(ratio) && ratio != 0.0) {

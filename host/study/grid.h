@@ -42,7 +42,7 @@ int grid_step_axis(const grid *g);
 /* Does an axis vary a parameter? Then each point has equations of its own. */
 bool grid_varies_parameters(const grid *g);
 
-/* The points of shard k of n (1 <= k <= n): first <= point < end. The shards' rows, in the order of k, are all rows. */
+/* The points of shard k of n (1 <= k <= n): first <= point < end. Shards 1 to n have every point once, in order. */
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
 
 /* === values of a point as changes ============================================================= */

@@ -71,7 +71,7 @@ static double period_of(const gauge *g, double step_s, double epsilon) {
         return (double)NAN;
     }
     uint64_t crossings = 0;
-    double first = 0.0; /* first sample, in steps */
+    double first = 0.0; /* first upward crossing of the mean, in steps */
     double last = 0.0;
     for (uint64_t i = 1; i < g->samples; i++) {
         const double before = g->kept[i - 1];
@@ -191,7 +191,7 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* The expression with each noisy output replaced by its record, with noise. Other outputs use it without noise. */
+/* Replaces each noisy output in the expression by its noisy record. Inside other outputs, it stays without noise. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;
@@ -345,7 +345,7 @@ typedef struct meter {
     void *run;
     run_checks *verdict;
     gauge *gauges;  /* [measures] */
-    int *component; /* [measures] of the image; -1: the output with the measure's index */
+    int *component; /* [measures] component of the state; -1: the output with this index */
     double *output;
     bool series;            /* a measure takes a sample each step */
     bool series_of_outputs; /* a measure takes a sample of an output each step */

@@ -63,7 +63,7 @@ typedef struct measure {
     const expr *of;
 } measure;
 
-/* The symbol, with m->of->primes, that has the column's declared unit; NULL: SI. */
+/* The measure's column has the declared unit of this symbol, divided by s for each of m->of->primes. NULL: SI. */
 const symbol *measure_symbol(const measure *m);
 
 typedef struct measures {
@@ -85,7 +85,7 @@ typedef struct point_notes {
     unsigned found;    /* findings, as bits (host/check/finding.h) */
     unsigned warned;   /* warnings, as bits */
     unsigned fails;    /* findings that make the exit status 1, as bits */
-    unsigned unlooked; /* run_checks_unlooked() */
+    unsigned unlooked; /* findings that were not checked at some steps, as bits */
     double end_s;      /* end of the run */
 } point_notes;
 
@@ -100,7 +100,7 @@ typedef struct sweep {
     image_settings engine;
     double from_s; /* measure from this time on */
     double strict; /* the value of --strict: see run_checks_fails() */
-    /* The image whose lists all points share; NULL: parameters or conserved momenta, which lists contain, differ. */
+    /* The image whose lists all points and their finer runs use. NULL: not all lists are equal (sweep_can_share()). */
     const image *shared;
 } sweep;
 
@@ -111,7 +111,7 @@ int sweep_columns(const sweep *s);
 /* False, reported, if a measure uses the end of the runs, and a swept step does not divide `until_s`. */
 bool sweep_ends_are_alike(const sweep *s, double until_s);
 
-/* May the grid's points share the lists of this image, which also serves the finer runs? */
+/* May all points and their finer runs use this image's lists? Varied parameters and conserved momenta change lists. */
 bool sweep_can_share(const grid *g, const image *im);
 
 /* The declared unit after a column's name, such as " [deg]"; "" for SI, or if `of` is NULL. The caller frees it. */

@@ -90,7 +90,7 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
-        if (slow && setting_is_fixed(s)) { /* its price takes a run, too */
+        if (slow && setting_is_fixed(s)) { /* fixed point needs a run for its price, too */
             c->end = own ? BROKEN_OFF : NOT_OWN;
             return;
         }
@@ -359,7 +359,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char step[NUMBER_SIZE];
     char until[NUMBER_SIZE];
     const bool runs = t->image[0]->contacts > 0;
-    /* the ranges for fixed point come from the run to the end */
+    /* fixed point takes its ranges from a run, so the command has the run's end */
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->request.board->name, s->number->name,
@@ -445,7 +445,7 @@ void table_print_left(FILE *out, const table *made) {
     fputc('\n', out);
 }
 
-/* Explains the letters before the table: "m" could be read as metre. */
+/* Explains the letters. This comes before the table, in which "m" could be read as metre. */
 static void print_letters(FILE *out, const table_row *first) {
     fputs("\nletters after figures: the source of each figure\n", out);
     figure_legend(out, &first->cost);
@@ -533,7 +533,7 @@ void table_print(FILE *out, const trials *t, const table *made, bool all) {
 
 /* --- for programs ------------------------------------------------------------------------------------*/
 
-/* The target of a row: CSV, its header, or an object in JSON. */
+/* A row goes into an object of `json`; without `json` to `csv`, as the header if `is_head`. */
 typedef struct row_sink {
     FILE *csv;
     json *json;

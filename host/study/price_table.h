@@ -97,7 +97,7 @@ void table_print_left(FILE *out, const table *made);
 enum { TABLE_ROWS = 12 };
 void table_print(FILE *out, const trials *t, const table *made, bool all);
 void table_csv(FILE *out, const trials *t, const table *made);
-/* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
+/* Writes one JSON object (schema: docs/warnings.md) with all rows; `made` NULL: no rows. `status`: exit status. */
 void table_json(FILE *out, const trials *t, const table *made, int status);
 /* table_json_begin() writes the first keys of table_json()'s object, table_json_row() the keys of a row. */
 void table_json_begin(json *j, const char *command, const trials *t);
@@ -118,13 +118,13 @@ typedef enum measured_end {
     MEASURED_MISSING /* a tool is missing */
 } measured_end;
 
-/* Why counting is impossible on a board, perhaps in `text`. NULL: it is possible, and shared files are compiled. */
+/* Returns why steps cannot be counted on a board, perhaps in `text`. NULL: they can; common files are then compiled. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
 /* Counts steps with the row's setting, for all rows that have it. With contacts, counts the row's whole run. Takes
  * seconds. Removes rows that cannot be built, linked or run, and sorts the table again. */
 measured_end measured_count(const trials *t, table *made, int row);
-/* Counts until all rows of the front are counted; nothing with contacts. `shows`: progress on standard error. */
+/* Counts until all rows of the front are counted. Does nothing with contacts. `shows`: progress on standard error. */
 measured_end measured_front(const trials *t, table *made, bool shows);
 
 #endif

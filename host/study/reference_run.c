@@ -71,9 +71,9 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 
 /* === the reference ============================================================================ */
 
-/* METHOD: of a reference, if `by` requests no other. Its steps are at first FINER times shorter than the scene's. They
- * are halved until both runs agree within ENOUGH of each column's largest value, or until they are FINEST times
- * shorter. If the last halving at least doubled a horizon that is too short, the limit is LAST. */
+/* A reference without requested steps has this METHOD. Its step is at first FINER times shorter than the scene's. It
+ * is halved until the last two runs agree within ENOUGH of each column's largest value, or until it is FINEST times
+ * shorter. FINEST becomes LAST while each halving at least doubles a trusted time that is too short. */
 #define METHOD WH_NYSTROEM5
 #define FINER 4.0
 #define FINEST 16.0
@@ -82,7 +82,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 /* Records are trusted while the two runs differ by less than this part of each column's largest value. A larger
  * difference is round-off that the motion has amplified. */
 #define LIMIT 1e-9
-/* A column is known if the two runs agree until its value has reached this part of its largest value. */
+/* A column is known if the two runs agree until its magnitude has reached this part of the column's largest value. */
 #define KNOWN_BY 1e-6
 /* An unknown column is only round-off if it is this many times larger in float, whose round-off is 2^29 times that of
  * double. A motion has nearly the same magnitude in both. */
@@ -208,7 +208,7 @@ static bool moves(const reference *r) {
 
 /* --- the steps ---------------------------------------------------------------------------------------*/
 
-/* An even number of steps in a record's spacing, `finer` times shorter than the scene's if w->operations allow. */
+/* An even number of steps in a record's spacing, `finer` times shorter than the scene's; fewer by w->operations. */
 static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =

@@ -1,6 +1,6 @@
 /* reference_run.h: the reference of priced runs: the motion at evenly spaced records, in double with compensated sums
  * and short steps. A second run has twice the step. The difference of the two runs estimates the reference's error, and
- * limits the time until which it is trusted. It shares operation list, sines and events with the compared runs. */
+ * limits the time until which it is trusted. Both compute operations, sines and events as the compared runs do. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -13,7 +13,7 @@ typedef struct reference_steps {
     uint64_t steps; /* even number in a record's spacing; 0: nystroem5, and steps by agreement */
     wh_method method;
     int order;    /* order of the method's error */
-    double limit; /* trusted while both runs differ by less than this part of the largest value */
+    double limit; /* trusted until the two runs differ by this part of the largest value */
 } reference_steps;
 
 typedef struct reference_request {
@@ -27,7 +27,7 @@ typedef struct reference_request {
 typedef struct reference_column {
     bool counts;    /* its error counts: a coordinate or rate that is more than round-off */
     double largest; /* largest magnitude in the trusted records */
-    double off;     /* largest difference of the two runs */
+    double off;     /* largest difference of the two runs; if by.steps > 0, the finer run's error */
 } reference_column;
 
 typedef struct reference {
@@ -38,18 +38,18 @@ typedef struct reference {
     int records;              /* number of trusted records after the start */
     double *row;              /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
-    double limit; /* trusted while columns differ by less than this part of the largest value */
-    char *how;    /* the two runs, in words */
-    char *why;    /* why trust ends early, or why there is no reference; or NULL */
-    bool still;   /* no quantity moves, so there is no reference */
-    bool stopped; /* interrupted: the result must not be used */
+    double limit;             /* trusted until columns differ by this part of their largest value */
+    char *how;                /* the two runs, in words */
+    char *why;                /* why trust ends early, or why there is no reference; or NULL */
+    bool still;               /* no quantity moves, so there is no reference */
+    bool stopped;             /* interrupted: the result must not be used */
 } reference;
 
 /* Never NULL; check `reliable` and `stopped`. The image must outlive the result. */
 reference *reference_new(const reference_request *w);
 /* Limits r->records, the trusted records after the start, to `until`. */
 void reference_cut(reference *r, int until);
-/* The largest difference of the two runs, as a part of the column's largest value; -1: of all columns that count. */
+/* A column's `off` as a part of its `largest`. `column` -1: the maximum over all columns that count. */
 double reference_agreement(const reference *r, int column);
 void reference_free(reference *r); /* NULL is fine */
 

@@ -250,7 +250,7 @@ static bool has_note(const resumable_csv *sh, const char *word) {
     return has;
 }
 
-/* Stores this word with the rows. Returns false if it was not written (reported). */
+/* Adds the line "noted: WORD" to FILE.sweep, once. Returns false if it was not written (reported). */
 static bool add_note(resumable_csv *sh, const char *word) {
     if (has_note(sh, word)) {
         return true;

@@ -45,7 +45,7 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s);
 bool resumable_csv_close(resumable_csv *sh);
 
 /* === a sweep from its first missing row to its last =========================================== */
-/* The SI unit of an axis, as declared if that is SI. The caller frees it. */
+/* The SI unit of an axis, in the declared spelling if the declared unit is SI. The caller frees it. */
 char *sweep_axis_unit(const axis *a);
 /* Writes name and unit of each axis as JSON (docs/warnings.md has the schema). */
 void sweep_json_axes(json *j, const grid *g);

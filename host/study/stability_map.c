@@ -43,8 +43,8 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* The runs of a row of the map. Their errors are compared with each column's range in the first run, which has the
- * shortest step: a coarse run has few samples, and may diverge like its finer run. */
+/* The runs of a row of the map. If the row varies the step, errors are compared with ranges of the first run, which has
+ * the shortest step: the range of a coarse run would come from few samples, or from a divergence. */
 typedef struct row_runs {
     const map_request *request;
     stability_map *map;

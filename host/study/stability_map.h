@@ -1,16 +1,16 @@
 /* stability_map.h: the verdict on a scene's run for each pair of two swept values: bounded, energy conserved, accurate
  * to a tolerance.
  *
- * * A finer run (host/check/step_doubling.h) shows until when a run is accurate. The energy residual
- * (host/check/energy_residual.h) shows if it conserves energy. A map's rows are the values of the axis other than the
- * step. */
+ * A finer run (host/check/step_doubling.h) shows until when a run is accurate. The energy residual
+ * (host/check/energy_residual.h) shows whether the run conserves energy. A map's rows are the values of the axis other
+ * than the step. */
 #ifndef STUDY_STABILITY_MAP_H
 #define STUDY_STABILITY_MAP_H
 
 #include "host/study/point.h"
 
-/* A run is out of bounds if the error of a rate exceeds this many times its range in the finest run of the row. A
- * growing error exceeds this bound long before overflow. */
+/* A run is out of bounds if the error of an unknown's highest derivative exceeds this many times its range. If the row
+ * varies the step, its finest run gives the range. A growing error exceeds this bound long before overflow. */
 #define MAP_BOUND 100.0
 
 /* The verdicts, from good to bad. X(id, mark, word, words) */

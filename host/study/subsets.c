@@ -150,7 +150,7 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Do the missing terms change a slope of the full run's state beyond round-off? The order of components may differ. */
+/* Do the terms missing in `less` change a slope of the full run beyond round-off? Component orders may differ. */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;

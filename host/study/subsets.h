@@ -22,7 +22,7 @@ typedef struct subset {
     const char *failed; /* the reason why the run did not reach the end; NULL: it did */
     bool same;          /* its records have the same bits as those of the full run */
     int contacts;
-    double *moved; /* [columns] largest difference over the run, in the column's unit */
+    double *moved; /* [columns] largest difference from the full run, in the column's unit */
     double figure[SUBSET_FIGURES]; /* with contacts only SUBSET_WORST has a meaning */
 } subset;
 

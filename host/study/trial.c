@@ -15,7 +15,7 @@
 
 /* === settings ================================================================================= */
 
-/* Number types, with or without compensated sums. Generated C gets its own when it is compiled, except fixed point. */
+/* Number types, with or without compensated sums. In generated C, the compiler's options choose float or double. */
 static const struct {
     const char *word;
     const char *run;    /* additional options of `whirl run` */
@@ -162,7 +162,7 @@ setting setting_at(int i) {
     }
 }
 
-/* Not a column of `numbers`, which has no row for compensated sums in double. */
+/* This is no column of `numbers`, because `numbers` has no row for compensated sums in double. */
 cost_number setting_cost_number(const setting *s) {
     return setting_is_fixed(s)           ? COST_FIXED
            : s->number == &engine_double ? COST_DOUBLE
@@ -400,7 +400,7 @@ static void drop(image *im) {
     }
 }
 
-/* Adds the step in fixed point to an image; if there is none, frees the image. A full run gives undeclared ranges. */
+/* Adds the step in fixed point; if none is possible, frees the image. A full run finds ranges that are not declared. */
 static image *in_fixed_point(image *im) {
     diags *unsaid = diags_new();
     im->fixed = fixed_plan_make(im, false, unsaid);

@@ -35,10 +35,10 @@ const char *setting_word(const setting *s, setting_axis axis);
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
-/* Is the method of this setting requested? `method` NULL requests rk4 and nystroem3 to 5: over the points of
- * docs/figures/price.csv the others save nothing in the median. A matrix replaces the default method. */
+/* Is the method of this setting requested? `method` NULL requests rk4 and nystroem3 to 5, because in the median of the
+ * points in docs/figures/price.csv no other method is cheaper. A matrix replaces the default method. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
-/* A sort key of settings; the index of the number type: float, float compensated, double, fixed. */
+/* setting_order(): a sort key. setting_number(): index of the number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
 enum { SETTING_NUMBERS = 4 };
 int setting_number(const setting *s);
@@ -47,7 +47,7 @@ cost_number setting_cost_number(const setting *s);
 /* May a scene refuse this form without an error? A matrix requires a linear scene, tables one turn angle. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Does this setting, with which `im` was made, give another step than all others? False: the method does not support
+/* Does this setting, with which `im` was made, give a step that no other one gives? False: the method does not support
  * the system, or sines are looked up in any case because they cannot be rotated. */
 bool setting_is_own(const setting *s, const image *im);
 /* Is the number type fixed point? Then a scene may have no step, or no step of this length (host/fixed). */
@@ -95,9 +95,8 @@ typedef struct trials {
     int worst;             /* the point whose reference ends first, or is least accurate */
     int records;           /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double
-        tolerated; /* with --of: an error up to this is usable, even if the quantity is smaller */
-    bool reliable; /* all references are reliable */
+    double tolerated;    /* with --of: errors up to this are usable, even for a smaller quantity */
+    bool reliable;       /* all references are reliable */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
 } trials;
@@ -138,7 +137,7 @@ const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
 /* The step as --step takes it, with the fewest digits that are read back exactly. Returns text. */
 const char *trial_step_text(const trials *t, deviation_pace pace, char text[NUMBER_SIZE]);
-/* The end of the compared motion, as --until takes it; ranges in fixed point extend to it. Returns text. */
+/* The end of the compared motion, as --until takes it. Ranges in fixed point come from a run to it. Returns text. */
 const char *trial_until(const trials *t, char text[NUMBER_SIZE]);
 
 #endif
