@@ -42,7 +42,7 @@ unsigned wh_cobs_short(uint8_t *bytes, unsigned count);
 /* Decode bytes[length], without the final zero, in place. Returns the decoded length; 0 if the code is invalid. */
 unsigned wh_cobs_decode(uint8_t *bytes, unsigned length);
 
-/* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first. `crc` is WH_CRC16_START or that of earlier bytes. */
+/* CRC-16/CCITT of bytes[count], polynomial 0x1021, high bit first. `crc`: WH_CRC16_START, or the CRC so far. */
 #define WH_CRC16_START 0xFFFFU
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count);
 

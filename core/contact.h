@@ -39,8 +39,8 @@
 #endif
 
 /* The search for an event takes at most WH_PROBES probes: four more than bisection needs to shrink the interval to
- * WH_BRACKET times its length. The spare probes allow better guesses than the middle: after n probes the interval is at
- * most WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach WH_BRACKET_FINE, the limit of round-off. */
+ * WH_BRACKET times its first length. The spare probes allow better guesses than the middle: after n probes the interval
+ * is at most WH_PROBES_SPARE / 2^(n - 1) of it. Usually six to ten probes reach WH_BRACKET_FINE, set by round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -55,8 +55,8 @@
 /* Maximum number of probes for a stop that a body enters and leaves within one trial step. */
 #define WH_DIP_PROBES 6U
 
-/* If a curved hold or stop slips by more than this share of its expression's change in the step, it is projected twice.
- * One projection leaves an error of second order in the slip. */
+/* Stops and holds are projected twice if the slip of one exceeds this fraction of its expression's change in the step.
+ * On a curved contact, one projection leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
 /* Maximum number of projections onto the stops and holds after a step with too many events. */
@@ -71,7 +71,7 @@
 enum {
     WH_FORCED = 1,     /* has a force, and a row of the Jacobian */
     WH_UNILATERAL = 2, /* pushes and does not pull */
-    WH_LIMITED = 4     /* has a limit, at which the contact slides; no impulse */
+    WH_LIMITED = 4     /* slides if its force reaches a limit; an impact gives it no impulse */
 };
 
 /* X(kind, traits), in the order in which contacts are numbered. If you add a kind, the compiler reports only the switch
@@ -95,7 +95,7 @@ typedef struct wh_contact {
     /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with a
      * rate does. Hold: 1 if its expression is straight (J_k constant), -1 if an input with a rate moves it. Else 0. */
     int8_t direction;
-    /* Index of the only coordinate in the expression if J_k is constant, so that J_k' is exactly zero; otherwise -1. */
+    /* If the expression has one coordinate and J_k is constant (J_k' is 0): that coordinate's index. Otherwise -1. */
     int16_t pin;
     uint8_t first_set; /* index of a crossing's first assignment, or of a hold's value in held[] */
     uint8_t sets;
@@ -103,7 +103,7 @@ typedef struct wh_contact {
 
 /* Layout of the numbers that `forces` gives for contact k: first these, then J_k[n], then (M^-1 J_k^T)[n]. */
 enum {
-    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
+    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: expression */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
     WH_LAW_BIAS,   /* J_k' q' */
     WH_LAW_ROWS    /* index of J_k[0] */
@@ -112,10 +112,10 @@ enum {
 /* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
  *
  * In each of WH_EVENTS_MAX rounds:
- * - Two trial steps, to the step's end and to the event: `stages` evaluations each, up to three to project the slip,
- * and one at the end.
- * - The search: one at its begin and one for each probe. If no event depends on a force: one at each end.
- * - Two for an impact, one for a capture, three for assignments, one more than their number for released contacts.
+ * - Two trial steps, one to the step's end and one to the event. Each takes `stages` evaluations, up to three to
+ *   project the slip, and one at its end.
+ * - The search: one at its begin and one at each probe; or only two, at begin and end, if no event depends on a force.
+ * - Events: two for an impact, one for a capture, three for assignments; for n released contacts, n + 1.
  *
  * Once: the last trial step, its three projections, settling the modes, and updating coordinates that follow inputs. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
@@ -123,9 +123,9 @@ enum {
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Most evaluations of `signals` in one step: one with each evaluation above, except those of the stages and of the
- * search's two ends. One more compares a trial step's begin with its end. A capture takes one, a crossing two, and
- * crossings that may turn back two. One more finds the crossings that are at zero when the step begins. */
+/* Most evaluations of `signals` in one step: one with each evaluation of the accelerations above, except those at the
+ * stages and at a search's two ends. Another one compares a trial step's begin with its end. A capture takes one, a
+ * crossing two, and crossings that may turn back two. The last one finds crossings at zero when the step begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 

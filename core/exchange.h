@@ -90,7 +90,7 @@ typedef struct wh_sample {
     uint8_t status; /* wh_sample_status */
 } wh_sample;
 
-enum { WH_READING_CUT = 1 }; /* wh_readings.flags: the watchdog has cut the outputs */
+enum { WH_READING_CUT = 1 }; /* wh_readings.flags: the watchdog has set the outputs to 0 */
 
 /* Edges and samples are sorted by ticks. The time of the readings themselves is the frame's `ticks`. */
 typedef struct wh_readings {

@@ -4,8 +4,8 @@
  * store them. Results have the same bits on every machine. Generated code keeps numbers within 2^30 in size
  * (host/fixed), so nothing here overflows.
  *
- * The one costly operation is the upper half of a product, rounded down. Both of its forms give the same result: one 32
- * x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR) four 16 x 16 = 32 bit products. */
+ * The only costly operation is the upper half of a product, rounded down. It takes one 32-bit product with a 64-bit
+ * result, or four 16-bit products if the processor lacks the former (Cortex-M0, AVR). The result is the same. */
 #ifndef WH_FIXED_H
 #define WH_FIXED_H
 
@@ -28,7 +28,7 @@ WH_C_BEGIN
 #define WH_FIXED_AVR 0
 #endif
 
-/* Generated functions: WH_FIXED_CALLED is never inlined; WH_FIXED_LIST is, except on an AVR, whose flash is small. */
+/* Generated functions: WH_FIXED_CALLED is never inlined. WH_FIXED_LIST is inlined, except on an AVR (small flash). */
 #if defined(__GNUC__)
 #define WH_FIXED_CALLED __attribute__((noinline, unused))
 #else
@@ -88,7 +88,7 @@ WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) { return (int32_t)a * (int3
 WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) { return (int32_t)a * b; }
 #endif
 
-/* floor(a b / 2^32). If b is a constant with a zero lower half, two of the products drop out. */
+/* floor(a b / 2^32). If b is a constant with a zero lower half, two of the four products drop out. */
 WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
     const int16_t a_high = (int16_t)(a >> 16);
     const int16_t b_high = (int16_t)(b >> 16);
@@ -163,7 +163,7 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
-/* Returns x >> by, for |x| < 2^30 if by is 7 or 15. An AVR shifts whole bytes at no cost, other amounts bit by bit. */
+/* Returns x >> by; if by is 7 or 15, |x| < 2^30. An AVR shifts whole bytes at no cost, other amounts bit by bit. */
 WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #if WH_FIXED_AVR
     return by == 7    ? (x + x) >> 8
@@ -182,7 +182,7 @@ WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 
 /* Entry i is sin(2 pi i/128) 2^30, for a turn and a quarter. */
 extern const int32_t wh_fixed_sine_table[(1U << WH_FIXED_SECTOR_BITS) + WH_FIXED_QUARTER] WH_FLASH;
-/* Entry i is 2^23/(128.5 + i), rounded: a reciprocal with 9 right bits. */
+/* Entry i is 2^23/(128.5 + i), rounded: a reciprocal with 9 correct bits. */
 extern const uint16_t wh_fixed_seed_table[128] WH_FLASH;
 
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
@@ -256,7 +256,7 @@ WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #endif
 }
 
-/* Sine and cosine for scenes with several waves (stage_turn.h): called if products are long, otherwise inlined. */
+/* Sine and cosine for scenes with several waves (stage_turn.h): called if WH_FIXED_NARROW, otherwise inlined. */
 WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #if WH_FIXED_NARROW
     wh_fixed_sincos_called(phase, sine, cosine);
@@ -281,8 +281,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, by a table and two Newton steps: the first gives 16 bits, and the second
- * computes only the further ones. The relative error is below 2^-28. */
+/* 2^61/d for d >= 2^31, by a table and two Newton steps: the first gives the upper 16 bits, the second only the bits
+ * below them. The relative error is below 2^-28. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

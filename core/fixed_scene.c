@@ -59,7 +59,7 @@ uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state)
     return hash;
 }
 
-/* Exact unless the result leaves the range of reals. */
+/* Returns value 2^bits, exactly unless the result leaves the range of reals. */
 static wh_real scaled(wh_real value, int bits) {
     const wh_real by = bits < 0 ? WH_R(0.5) : WH_R(2.0);
     for (int left = bits < 0 ? -bits : bits; left > 0; left--) {

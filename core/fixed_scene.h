@@ -14,8 +14,8 @@
  *
  * Each input and each component except turn angles has a range. A value beyond its range is set to the nearer end and
  * increments state.saturated: from then on the motion is wrong. Inside the ranges nothing overflows; the generator
- * proves it. A step rounds increments to about 2^-30 of the range, and loses smaller ones than half of that without
- * counting them (`whirl run --number fixed` prints the loss). */
+ * proves it. A step rounds each increment to a multiple of about 2^-30 of the range. Increments below half of that are
+ * lost without being counted (`whirl run --number fixed` prints the loss). */
 #ifndef WH_FIXED_SCENE_H
 #define WH_FIXED_SCENE_H
 
@@ -86,8 +86,8 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
 /* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of the format, ties away
- * from zero. A value beyond the range gives the nearer end, and NaN the low end; both increment *saturated. Up to one
- * unit beyond an end (in float plus its last place) counts as inside, because the end may have been rounded. */
+ * from zero. A value beyond the range gives the nearer end, and NaN the low end; both increment *saturated. A value up
+ * to one unit beyond an end (float: plus the end's round-off) counts as inside, because the end may be rounded. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

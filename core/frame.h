@@ -18,7 +18,7 @@ WH_C_BEGIN
  * check. */
 #define WH_FRAME_VERSION 1U
 
-/* Bytes other than payload, before coding. */
+/* Bytes of a frame other than its payload, before coding. */
 #define WH_FRAME_FIXED_BYTES 12U
 /* Largest coded size of a frame with this payload, including the final zero. */
 #define WH_FRAME_BYTES(payload) \

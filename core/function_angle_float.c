@@ -8,7 +8,7 @@
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* Returns base + angle, or base - angle if `minus`, with the sign `sign`. base is in Q30; 0 returns the angle. */
+/* Returns base + angle, or base - angle if `minus`, with the sign `sign`. base is in Q30; if 0, `minus` is ignored. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);

@@ -39,7 +39,7 @@ WH_INLINE wh_pair wh_pair_sum(double a, double b) {
 #define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
 #define WH_INFINITY __builtin_inf()
 
-/* For all angles, within one unit in the last place. (wh_sincos() bounds the absolute error, in a limited range.) */
+/* For any angle, the error is within one ulp. (wh_sincos() bounds the absolute error, in a limited range.) */
 double wh_sine(double rad);
 double wh_cosine(double rad);
 

@@ -29,7 +29,7 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
 
 /* Returns the logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * The mantissa m times a number c near 1/m, a multiple of 1/128 for each sector, is 1 + z exactly, with |z| <= 1/16.
+ * Each sector of the mantissa m has a number c near 1/m, a multiple of 1/128. m c is 1 + z exactly, with |z| <= 1/16.
  * The result is exponent - log2(c) + log2(1 + z), with the polynomial log2(e) z - z^2 (...) for the last term. Between
  * 31/32 and 17/16 the other two terms cancel, so small logarithms have the same relative precision as large ones. */
 static int64_t log2_of(uint32_t magnitude) {

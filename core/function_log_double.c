@@ -6,7 +6,7 @@
 #if WH_DOUBLE
 
 #define LN2_HIGH \
-    0x1.62e42fefa4p-1 /* e LN2_HIGH + .high is exact, because both are multiples of 2^-40 */
+    0x1.62e42fefa4p-1 /* e LN2_HIGH + entry.high is exact: both are multiples of 2^-40 */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
 /* The bits of 0.7051, the least m. m is below twice this number. */

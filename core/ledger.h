@@ -38,7 +38,7 @@ struct wh_ledger_form {
     const uint8_t *input;   /* [inputs] inputs in the energies, in the order of their entries */
     uint16_t smooth;        /* number of smooth entries */
     uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
-    uint8_t accounts;       /* words: two for each account, one for each input, one if stabilized */
+    uint8_t accounts;       /* reals besides entries: 2 per account, 1 per input, 1 if stabilized */
     uint8_t coordinates;    /* number of integrated coordinates */
     uint8_t angles;         /* number of coordinates stored as turn angles; they come first */
     uint8_t inputs;

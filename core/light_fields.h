@@ -15,7 +15,7 @@
 #define WH_LIGHT_END "end 0x"
 #define WH_LIGHT_NONE "none"
 
-/* Scenes that the image runs to their end. They cover an angle under gravity, a hinge, a gear on a carriage, a
+/* Scenes that firstlight.c runs to their end. They cover an angle under gravity, a hinge, a gear on a carriage, a
  * coordinate that follows from its conserved momentum, and stops with friction. */
 #define WH_LIGHT_SCENES(X) \
     X(rig_fixed) \

@@ -35,9 +35,9 @@
  * the shares b_j (c_i - c_j). Their .stage is zero, so the stages have no rates: systems whose accelerations depend on
  * rates cannot use them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
- * A row with .turns may rotate the sines of the step's begin (stage_turn.h). .turns[i] is the distance of stage i as a
- * multiple of that of stage 1, both extrapolated by the rates at the begin (tests/core/test_stage_turn.c). Without
- * .turns, the sines of each stage come from the sine table. */
+ * A row with .turns may rotate the sines of the step's begin (stage_turn.h). .turns[i] is the time from the begin to
+ * stage i, divided by the time from the begin to stage 1 (tests/core/test_stage_turn.c). Without .turns, the sines of
+ * each stage come from the sine table. */
 /* clang-format off */
 #define WH_SHORT_METHOD_ROWS(X) \
     X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \
@@ -103,7 +103,7 @@ typedef struct wh_method_row {
     const char *name;  /* name in C */
     const char *title; /* name in sentences */
     uint8_t order;
-    uint8_t takes;  /* the systems that the method can step: one of the values above */
+    uint8_t takes;  /* the systems that the method can step, such as WH_ANY_SYSTEM */
     uint8_t stages; /* evaluations of the right-hand side per step */
 } wh_method_row;
 
@@ -114,8 +114,8 @@ WH_C_END
 
 #ifndef __cplusplus
 
-/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. Up to four, the longer rows
- * are omitted, because they can cost an 8-bit chip 200 bytes of RAM. */
+/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. If it is at most four, the
+ * rows with more stages are omitted, because they can cost an 8-bit chip 200 bytes of RAM. */
 #if defined(WH_STAGES) && WH_STAGES <= 4
 #define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
 #define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)
@@ -146,7 +146,7 @@ typedef struct wh_places {
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
-    const wh_places *places; /* positions of the stages; NULL: the rates of the stages give them */
+    const wh_places *places; /* positions of the stages; NULL: computed from the stages' rates */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
@@ -158,8 +158,8 @@ typedef struct wh_tableau {
 WH_TABLEAUS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
 
-/* One object for each row, not an array: if the method is constant, generated code contains only its own row, or none
- * if the loops over it are unrolled. */
+/* Each row is an object of its own, not an array element. If the method is constant, generated code contains only that
+ * method's row, or none if all loops over the row are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \

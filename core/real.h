@@ -1,4 +1,4 @@
-/* real.h: the core's number type, wh_real, and the macros of every core file. wh_real is float, or double in the
+/* real.h: the core's number type, wh_real, and macros for all core files. wh_real is float, or double in the
  * reference build (WH_DOUBLE=1). Both builds use no library, and only IEEE 754 additions, multiplications, divisions,
  * square roots and conversions. So the same source gives the same bits on every machine, unless the compiler changes
  * the operations. This file forbids the contraction to fused multiply-adds after its #include. It stops the compilation

@@ -54,7 +54,7 @@ static const uint8_t reciprocal_root[32] = {
 
 static uint32_t high_half(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
 
-/* The same by two Newton steps for the reciprocal root, and one for the root. */
+/* Returns sqrt(x), rounded to nearest, by two Newton steps for 1/sqrt(x) and one for sqrt(x). */
 static word root_of(word x) {
     const bool two = x >= ONE << 1; /* 2 <= x < 4 */
     const unsigned stretch = (unsigned)(two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U);

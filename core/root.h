@@ -2,7 +2,7 @@
  *
  * WH_SQRT(x) is the processor's instruction if WH_ROOT_BUILTIN is 1, otherwise wh_sqrt(), with the same bits. Without
  * -fno-math-errno, compilers add a call of libm's sqrtf that sets errno for negative numbers, or emit only the call
- * (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors, compile with that flag. */
+ * (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors, use -fno-math-errno. */
 #ifndef WH_ROOT_H
 #define WH_ROOT_H
 

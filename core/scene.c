@@ -211,7 +211,7 @@ static wh_real rounded(uint64_t part, uint64_t of) {
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
     const wh_fraction step = scene->step;
     wh_time time = {0, wh_scene_time_s(scene, state)};
-    /* in two parts, because small cores convert 64 bits by double arithmetic */
+    /* two conversions to 32 bits, because small cores convert to 64 bits by double arithmetic */
     if (step.denominator == 0) {
         const wh_real high = time.fraction_s * WH_R(0x1p-24);
         const uint32_t upper = high < WH_R(0x1p32) ? (uint32_t)high : UINT32_MAX;

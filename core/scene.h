@@ -112,8 +112,8 @@ struct wh_scene {
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
- * with the last good state and state->fault set, again at each call with the same inputs. Returns WH_E_ARGUMENT for a
- * state that was not started: zeroed, or refused by wh_scene_start(). */
+ * with the last good state kept and state->fault set; a repeated call with the same inputs fails in the same way.
+ * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
 /* Do `steps` steps (0 is allowed), with the same bits as `steps` calls of wh_scene_step(). If the scene's file is
@@ -130,7 +130,7 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
  * compensation. With a ledger, the change of each account is stored separately (wh_ledger_corrected()).
  *
  * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that was not started, an unknown index, or a
- * value that is not finite or out of bounds. So also for an index that follows an input with a rate: set the input. */
+ * value that is not finite or out of bounds. A component that an input with a rate sets is refused: set the input. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,

@@ -1,7 +1,7 @@
 /* scene_set.c: corrects one component of a state from a measurement. The next step finds the contacts' modes again. */
 #include "step/driven.h"
 
-/* Radians, the same as in contact_crossing.h. */
+/* Limit on an angle, or on its move, in rad. Assignments have the same limit (contact_crossing.h). */
 #define ANGLE_MOST WH_R(1e9)
 
 static bool has_books(const wh_scene *scene, const wh_state *state) {

@@ -56,7 +56,7 @@ typedef struct wh_state {
     wh_real *input;  /* [scene->inputs] SI units; the caller may set them between steps */
     wh_contacts *contacts; /* NULL without contacts */
     wh_real *held;   /* [scene->held] SI units: value of a curved hold, slip of a straight one */
-    wh_real *ledger; /* totals, carries, levels at the start, corrections; NULL: no ledger */
+    wh_real *ledger; /* totals, their carries, other reals (ledger.h); NULL: no ledger */
     /* After WH_E_DIVERGED: index of the component, angles first, then reals. After WH_E_UNDEFINED or WH_E_SINGULAR:
      * index of the contact (contact.h). After WH_E_ARITHMETIC: the failed check, a wh_probed (arithmetic.h). */
     int fault;

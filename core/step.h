@@ -27,7 +27,7 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
-/* The arguments of a step that all its stages share. Scalars stay in registers, and their constants are known early. */
+/* The arguments that all stages of a step share. The compiler keeps such scalars in registers, and folds constants. */
 typedef struct wh_stepping {
     const wh_tableau *by; /* the method */
     const wh_state *state;
@@ -46,7 +46,7 @@ typedef struct wh_stepped_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
-/* Fills the phases at the begin. Zeroes entries that no scene uses, because the compiler does not know that. */
+/* Fills the phases at the begin. Zeroes unused elements, because the compiler does not know that they are unused. */
 WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
                                 wh_stepped_list *list) {
     WH_UNROLL
