@@ -38,7 +38,7 @@ typedef enum wh_probed {
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
     WH_PROBED_ROUNDING,  /* an ulp of 1, unless sums are rounded twice, or in another mode */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
-    /* 5/3, and below 7/3 and 10/3: wrong if division is a product with a reciprocal */
+    /* 5/3, and the next two are 7/3 and 10/3: wrong if division is a product with a reciprocal */
     WH_PROBED_FIVE,
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,

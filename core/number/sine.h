@@ -23,7 +23,7 @@ WH_C_BEGIN
  * 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* Sine and cosine, each as a sum of two parts: with a third term added first, the whole sum is rounded only once. */
+/* Sine and cosine as sums of two parts. A third term is added to the small part: the sum is then rounded only once. */
 typedef struct wh_sine_parts {
     wh_real sine;
     wh_real cosine;
@@ -45,7 +45,7 @@ WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
  * build refuses such a step, as the double build does. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
-/* Number of sectors in a turn (as a power of two) and in a quarter turn. */
+/* Binary logarithm of the number of sectors in a turn; number of sectors in a quarter turn. */
 #define WH_SINE_BITS 7
 #define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
 
@@ -121,7 +121,7 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
 }
 
 /* Converts radians to a stored angle. Inline: for a phase, the compiler drops the high half. 2^32/(2 pi) is in
- * integers, as floats would round: 683565276 - 1819212470/2^32 per radian, and 1367130551/2^32 per 2^-31 rad. */
+ * integers, because a float would round it: 683565276 - 1819212470/2^32 per rad, 1367130551/2^32 per 2^-31 rad. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */

@@ -1,7 +1,7 @@
 /* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g. The scene's operation
  * list computes the products, except those by 0 and 1. If a step hardly changes a component, the list computes x+ = x +
  * ((Phi - 1) x + Gamma u + g) instead: the round-off is then a part of the change, not of the much larger state.
- * Bounds, statuses and turn angles are those of every step (step_end.h). */
+ * Bounds, statuses and turn angles are handled as in every step (step_end.h). */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
@@ -9,7 +9,7 @@
 #include "multi_step.h"
 #include "step_end.h"
 
-/* Returns as wh_all_believable(). Without an FPU, a check of the bits comes first: a tenth of the time (ATmega328P). */
+/* Returns as wh_all_believable(). Without an FPU, a check of bits usually suffices, in a tenth of the time (AVR). */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
     /* the upper byte of 2^39: the sum of smaller numbers is below WH_ABSURD */

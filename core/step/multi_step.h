@@ -7,7 +7,7 @@
 #include "unroll.h"
 
 /* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers: up to 5 % fewer
- * instructions in a small scene. There gcse is off, because it occupies more registers than it frees. */
+ * instructions in a small scene. With at most one wave, gcse is off: it occupies more registers than it frees. */
 #if defined(WH_MULTI_STEP) && WH_MULTI_STEP && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1

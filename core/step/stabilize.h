@@ -1,7 +1,7 @@
 /* stabilize.h: energy stabilization by small corrections along the rates, for runs so long that the method's error, or
  * round-off, would add up. Part of ledger_step.h.
  *
- * The ledger gives the drift D: the part of the energy's change that no entry explains (ledger.h), without earlier
+ * The ledger (ledger.h) gives the drift D: the energy's change minus all of its entries, except that of earlier
  * corrections. Scaling all rates by 1 + s changes the energy by s P, if the kinetic energy is a quadratic form of the
  * rates. P is sum q_i' p_i, with the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change.
  * So each step sets

@@ -83,7 +83,7 @@ WH_INLINE bool wh_begins_away(const wh_tableau *by) {
 /* True if all stages of the method are at the step's begin. */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* Returns the distance of position i from the step's begin at a stage, by .places. `rate` is its rate at the begin. */
+/* Returns the change of position i from the step's begin to a stage, by .places. `rate` is its rate at the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -112,7 +112,7 @@ WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_pos
     }
 }
 
-/* Adds share * more to *sum. The first time, when *any is false, sets *sum to it. */
+/* Adds share * more to *sum. The first time, when *any is false, sets *sum to the product. */
 WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
     if (share != WH_R(0.0)) {
         *sum = *any ? *sum + share * more : share * more;

@@ -22,7 +22,7 @@ WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const w
     (void)wh_ledger_stage(m->form, m->method, m->phase, linear, rate, input, m->work);
 }
 
-/* wh_turn_second() with a ledger, and with the same bits. */
+/* wh_turn_second() with a ledger; the state has the same bits as without. */
 WH_INLINE wh_status wh_turn_ledger(const wh_ledger_form *form, const void *model,
                                    wh_turned_accel_fn *accel, const wh_waves *waves,
                                    wh_method method, bool compensated, wh_two_part h,

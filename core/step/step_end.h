@@ -9,8 +9,8 @@
 #include "stage_sums.h"
 
 /* Moves *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to nearest: truncation would slow
- * every angle down by half a unit per step. If compensated, *carry becomes the round-off. It is added to the
- * rounded-off part of the move, because a large `steps` would absorb it. */
+ * every angle down by half a unit per step. If compensated, *carry is added to the rounded-off part of the move,
+ * because a large `steps` would absorb it, and becomes the round-off of the result. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -119,7 +119,7 @@ WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
     return status;
 }
 
-/* Fills trial->carry[count]: with the carries of the last step if sums are compensated. */
+/* Fills trial->carry[count]: with the carries of the last step if sums are compensated, otherwise with zeros. */
 WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned count,
                               wh_trial *trial) {
     WH_UNROLL
@@ -182,8 +182,8 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns the correction of h^2 divided by the row's parts, in s^2. The caller multiplies it by the sum of
- * accelerations in the change of positions. One part is the round-off of the quotient. The other is due to the stages:
+/* Returns the correction of the rounded h^2 / by->parts, in s^2. In the change of a position, the caller multiplies the
+ * correction by the sum of accelerations. One term is the round-off of h / by->parts. The other is due to the stages:
  * they use h.high alone, so their distances from the begin have the relative error -h.low / h. This would change the
  * energy by the same amount in every step: 5e-13 of a pendulum's energy in a step of a millisecond. The correction
  * removes this change if the mass matrix is constant, otherwise most of it (docs/dev/numerics.md). */
@@ -192,8 +192,8 @@ WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_pa
     return h.high * (part.low + stages);
 }
 
-/* wh_square_short() for angles, in phase units s^2 per radian. Each case has the round-off of its stages: rotated
- * sines, or all stages at the begin; stages by .places; stages by wh_stage_angle(). */
+/* wh_square_short() for angles, in phase units s^2 per radian. Stages differ in round-off, so there are three cases:
+ * rotated sines or all stages at the begin; positions by .places; positions by wh_stage_angle(). */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};

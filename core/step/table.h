@@ -31,8 +31,8 @@
 #define WH_TABLE_LINEAR 2U
 #define WH_TABLE_CUBIC 4U
 
-/* If WH_TABLE_FOLD is 1, only half a turn is stored if all of a list's tables are even or odd functions: half the
- * flash, the same bits. This costs at most 1 % of a step's cycles without an FPU, but 14 % with an FPU. */
+/* With WH_TABLE_FOLD 1, a list whose tables are all even or odd functions stores only half a turn of them: half the
+ * flash, the same bits. Folding costs at most 1 % of a step's cycles without an FPU, but 14 % with an FPU. */
 #ifndef WH_TABLE_FOLD
 #if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
                    (defined(__riscv) && !defined(__riscv_flen)))
@@ -45,7 +45,7 @@
 #error "core/step/table.h: WH_TABLE_FOLD is for float"
 #endif
 
-/* Number of cells stored for the table of an even or odd function: half a turn and one cell, or a turn. */
+/* Number of cells stored for the table of an even or odd function: half a turn and one cell; unfolded: a turn. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
 /* Scale of y in a table's coefficients. In float, y is 2^32 times the distance in cells, so that it has all digits of
