@@ -49,7 +49,7 @@ float hal_motor_supply_V(void);
 float hal_motor_supply_most_V(void);
 
 /* True if a converter with the range end_mV measures most_mV with a margin of 2 %, ten times the error of the
- * converters here (5 counts of 12 bits, 2 counts of 10 bits). Each board asserts it. */
+ * boards' converters (5 counts of 12 bits, 2 counts of 10 bits). Each board asserts this. */
 #define HAL_MOTOR_SUPPLY_IS_SEEN(most_mV, end_mV) ((end_mV) >= (most_mV) + (most_mV) / 50U)
 
 WH_C_END

@@ -11,7 +11,7 @@
 
 WH_C_BEGIN
 
-/* bytes of a slot, at least */
+/* smallest size of a slot, in bytes */
 #define HAL_SETTINGS_BYTES 256U
 
 /* Longest duration of a call, in ticks of the capture timer (clock.h). */

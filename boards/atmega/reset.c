@@ -10,7 +10,7 @@ static hal_reset cause;
 static bool known;
 static atmega_fault_record fault;
 
-/* At power-on any flag may be set. A fault resets by the watchdog. Without a flag there was no reset. */
+/* At power-on any flag may be set. After a fault the watchdog's flag is set. Without a flag there was no reset. */
 static hal_reset cause_of(uint8_t flags, bool faulted) {
     if ((flags & _BV(PORF)) != 0) {
         return HAL_RESET_POWER_ON;

@@ -23,7 +23,7 @@ uint32_t board_chip(void) { return reg_load(BOARD_CHIP_ID); }
 
 #if __ARM_ARCH >= 7 || BOARD_REGISTERS_FAKED
 
-/* Data watchpoint and trace (Armv7-M Architecture Reference Manual, C1.8). Some Cortex-M7 lock it. */
+/* Data watchpoint and trace (Armv7-M Architecture Reference Manual, C1.8). Some Cortex-M7 chips lock this unit. */
 #define DEMCR 0xE000EDFCU
 #define DEMCR_TRCENA (1U << 24)
 #define DWT_CTRL 0xE0001000U

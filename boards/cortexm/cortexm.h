@@ -49,7 +49,7 @@ void board_fault(void);
 
 typedef struct board_fault_facts {
     uint32_t exception;
-    uint32_t sp; /* if it was invalid, pc and lr are unknown */
+    uint32_t sp; /* stack pointer; if it was invalid, pc and lr are unknown */
     uint32_t pc;
     uint32_t lr;
     uint32_t cfsr;

@@ -18,7 +18,7 @@ void board_guard_stack(void) {
     }
     REGISTER(MPU_RBAR) = (uint32_t)(uintptr_t)board_stack_guard | 1U << 4; /* region 0 */
     REGISTER(MPU_RASR) = no_access_no_execute | strip_256_bytes | 1U;
-    /* The default map applies outside the region; the unit is off in fault handlers. */
+    /* The default map applies outside the region; hard-fault and NMI handlers run unprotected. */
     REGISTER(MPU_CTRL) = 1U << 2 | 1U;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }

@@ -1,5 +1,5 @@
 /* link.c: hal/link.h by semihosting (Arm semihosting specification 2.0: SYS_OPEN, SYS_WRITE, SYS_READ). The debugger or
- * emulator opens inherited descriptors by their names in /dev/fd: no file remains. A read waits for data. */
+ * emulator opens the inherited descriptors as /dev/fd/N, so no file remains. A read waits for data. */
 #include "hal/link.h"
 
 #include "boards/board.h"

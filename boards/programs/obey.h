@@ -23,7 +23,7 @@ _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
                "one list of who asks for stop");
 
-/* Returns the source of the stop. It is unknown after a press shorter than a control step, which only the cut shows. */
+/* Returns the source of the stop. After a press shorter than a control step, seen only as a cut, it is unknown. */
 static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }

@@ -5,8 +5,8 @@
  * clears MOE without software: the output then has its idle level, low. MOE cannot be set while the break is active. A
  * lock-up of the core does not clear MOE on this chip; then the watchdog resets it.
  *
- * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). An output could then stay high: that the F4
- * disables its outputs, as other families do, is not proved. So the watchdog keeps running in a halt. */
+ * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). An output could then stay high: other
+ * families disable the outputs, but for the F4 this is not proved. So the watchdog keeps running in a halt. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"

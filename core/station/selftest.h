@@ -7,7 +7,7 @@
 
 /* Adds " selftest=good|bad", then the result of each part, from the values of the last control step. A part is good if:
  *
- *     arithmetic  the observer's scene gives its reference results (core/number/arithmetic.h), or has none
+ *     arithmetic  the observer's scene, if any, gives the reference results (core/number/arithmetic.h)
  *     clock       the clock is not the fallback clock
  *     watchdog    the watchdog has not cut the drive
  *     supply      the supply voltage is within its range

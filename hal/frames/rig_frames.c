@@ -99,7 +99,7 @@ static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed;
 static bool stop_heard; /* false before the first reading and after a long silence */
-/* time of the last reading */
+/* time of the last reading of stop */
 static uint32_t stop_ticks;
 static uint32_t load_ticks;
 static bool load_seen;         /* load_ticks is valid */
@@ -117,8 +117,8 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* After this time without a reading, stop counts as pressed. If all readings fail, the guard's shorter wait for the
- * load cell comes first, and names the cell as the cause of the trip. */
+/* After this time without a reading, stop counts as pressed. If all readings fail, the guard trips earlier, because
+ * of the missing load samples, and names the cell as the cause. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {
