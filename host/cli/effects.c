@@ -66,7 +66,7 @@ static int column_of(const subsets *s, const char *name) {
     return 0;
 }
 
-/* "X=1mm" */
+/* Reads an item of --error, such as "X=1mm". Returns false after an error (reported). */
 static bool read_limit(subsets *s, const char *text) {
     const size_t length = strcspn(text, "=");
     char *name = alloc_trimmed(text, length);

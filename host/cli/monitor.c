@@ -241,7 +241,7 @@ static bool written(const monitor *m) {
     return true;
 }
 
-/* Once a second, so that a sudden end loses at most a second of records. */
+/* Writes records to their files once a second, so that a sudden end loses at most a second of records. */
 static void keep_records(monitor *m) {
     const int64_t now = now_ms();
     if (now - m->kept_ms < KEPT_MS) {

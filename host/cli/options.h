@@ -190,12 +190,12 @@ typedef struct target_reader {
     int (*work)(void *options);
 } target_reader;
 
-/* Takes all options, and checks the files that they name. *target: the only other word, the last of `many`, or NULL.
+/* Takes all options, and checks the files that they name. *target: the target (the last of `many`), or NULL.
  * Returns false after an error (reported). `common` may be NULL if the command has no common options. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* load() of the named or only scene. If the scene is to be written, one of several must be named. */
+/* load() of the named target. Without a name: the only scene; else the mechanism, if it is not to be written. */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 

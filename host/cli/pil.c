@@ -105,7 +105,7 @@ typedef struct pil_options {
     bool kinds; /* list the kinds of faults */
 } pil_options;
 
-/* Printing a tape needs no firmware. */
+/* Reports a scene or option that is given with --read, which only prints a tape. */
 static bool is_read_alone(const pil_options *o) {
     const char *beside = o->target != NULL     ? "scene"
                          : o->every != NULL    ? "--every"
@@ -210,7 +210,7 @@ static int tell(const pil_options *o, const lockstep_request *request, const ima
     return code == EXIT_DONE && !fault_all_occurred(&o->faults) ? EXIT_RUN_FAILED : code;
 }
 
-/* Does nothing without --port. */
+/* Opens the serial line of --port; without --port, does nothing. */
 static bool open_line(const pil_options *o, lockstep_request *request, port *line) {
     if (o->port == NULL) {
         return true;

@@ -223,14 +223,14 @@ static void say_no_pace(const trials *t, const setting *s, double least, bool ro
             s->number == &engine_float ? ", or --number double" : "");
 }
 
-/* Returns the first pace that satisfies the error, or -1 (reported). *longest: no longer pace was tried. */
+/* Returns the first pace that satisfies the error, or -1 (reported). *longest: that pace was tried first. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = (double)INFINITY;
     double operations = 0.0; /* of all tries */
     bool slow = false;
     int falls = 0; /* tries with an error below 0.7 times the least error before */
-    int stuck = 0; /* tries since the last fall; after three falls, two of them show round-off */
+    int stuck = 0; /* tries since the last fall; two, after three falls, show round-off */
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
         *pace = pace_at(i);

@@ -13,7 +13,7 @@
     "  --title TEXT         the title\n" \
     "  --xlabel TEXT        the label of the horizontal axis\n" \
     "  --ylabel TEXTS       the labels of the panels, between commas\n"
-/* Rows of own_option for them, which set a plot_choice. */
+/* Rows of own_option for these options. They set a plot_choice. */
 #define RUN_CHOICE_ROWS(choice) \
     {.word = "--y", .text = &(choice).y}, \
         {.word = "--panel", \

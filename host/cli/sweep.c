@@ -298,7 +298,7 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
 
 /* --- the commands ------------------------------------------------------------------------------*/
 
-/* Reports errors that all points share, once for the unchanged scene; returns false after one. */
+/* Reports errors of the unchanged scene, which all points would share. Returns false after an error. */
 static bool begins(const sweep_options *o, const sweep *s, const loaded *base, diags *errors) {
     if (!o->maps && !ends_fit(s, base)) {
         return false;

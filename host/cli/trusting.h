@@ -10,7 +10,7 @@
 /* Makes *plan, the step in fixed point, to be freed. Measures undeclared ranges in a run. Returns an exit status. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
-/* Is this number of operations within --effort? If not, reports the time, what takes it, and a hint with --effort. */
+/* Is this number of operations within --effort? If not, reports the estimated time of `what`, and `hint`. */
 bool effort_suffices(const char *command, double effort, double operations, const char *hint,
                      const char *what, ...) __attribute__((format(printf, 5, 6)));
 

@@ -518,7 +518,7 @@ static void write_includes(FILE *out, const image *im) {
     }
 }
 
-/* For a scene without contacts. */
+/* Writes one_step() of a scene without contacts. */
 static void write_one_step(FILE *out, const image *im) {
     const bool second = im->form == WH_SECOND_ORDER;
     const char *method = wh_methods[im->settings.method].name;
@@ -582,7 +582,7 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
-/* Stages with reserved memory. Fewer than four would not reduce the values that gcc spills. */
+/* Returns the number of stages with reserved memory. Fewer than four would not make gcc spill fewer values. */
 static int most_stages(const image *im) {
     const int stages = wh_methods[im->settings.method].stages;
     return stages > 4 ? stages : 4;

@@ -148,7 +148,7 @@ static void write_memory(FILE *out, const image *im) {
         im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
 }
 
-/* WH_R() needs a point or an exponent. */
+/* Defines a number. Its text gets a point if it has no exponent, because WH_R() needs one of them. */
 static void define_number(FILE *out, const image *im, const char *kind, const char *name,
                           double value) {
     char text[40];

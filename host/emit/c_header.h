@@ -26,7 +26,7 @@ typedef void c_header_body(FILE *out, const void *of);
 /* Writes the scene's declaration by WH_LINKS_TO() of version.h, and the body. */
 void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,
                       const void *of);
-/* Writes the scene's declaration in its .c file, and its second name by WH_LINKED_AS(). */
+/* Writes the scene's declaration for the scene's .c file, and the scene's second name by WH_LINKED_AS(). */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);
 /* The body in floating point; `of` is an image. */

@@ -57,8 +57,8 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
  * saves about half of the flash: seven links of a pendulum take 8 instead of 15 KB, ten take 14 instead of 33. */
 enum { INLINED_MOST = 150 };
 
-/* For longer lists, the compiler should keep the order (WH_LONG_LIST of core/step.h). On the Cortex-M4F, 67 operations
- * then take 1 % fewer instructions but 2 % more cycles; 131 take 4 % fewer instructions and 2 % fewer cycles. */
+/* For lists of this length, the compiler should keep the operations' order (WH_LONG_LIST of core/step.h). On the
+ * Cortex-M4F, 67 operations then take 1 % fewer instructions but 2 % more cycles; 131 take 4 % and 2 % fewer. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
@@ -275,7 +275,7 @@ void c_list_matrix(FILE *out, const op_list *t) {
     write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
-/* Writes a wave's rate times `scale`, summed as in the interpreter. A single angle's factor is scaled first. */
+/* Writes a wave's rate times `scale`, summed as in the interpreter. With one angle, its factor is scaled first. */
 static void write_rate(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     int terms = 0;

@@ -24,13 +24,13 @@ bool c_list_uses_phase(const op_list *t);
 bool c_list_is_long(const op_list *t);
 /* Writes "(void)NAME;", unless NAME is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
-/* What a generated list gets: phases, or pairs of sine and cosine. */
+/* The arguments of a generated list: phases, or pairs of sine and cosine. */
 typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
 /* Writes the statements, with results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
-/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. The core calls it through a pointer in a
- * constant, which gcc -Og resolves too late for inlining, so the function must not require inlining. */
+/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. by_pointer: the core calls it through a
+ * pointer in a constant, which gcc -Og resolves too late for inlining, so the function must not require inlining. */
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 

@@ -270,7 +270,7 @@ static void put_matrix_rows(json *j, const image *im, const char *key, int first
     json_close(j, ']');
 }
 
-/* With a matrix also "phi", "gamma" and "g", rows of the components in their order. */
+/* Writes the word for the matrix, then "phi", "gamma" and "g" of a matrix: a row for each component, angles first. */
 static void put_matrix(json *j, const image *im) {
     const int states = im->matrix.states;
     json_text(j, "matrix", image_matrix_words[im->settings.matrix]);
@@ -393,7 +393,7 @@ static void tell_ledger(FILE *out, const image *im) {
     }
 }
 
-/* Undeclared ranges are found in a run. */
+/* Prints the declared ranges. Fixed point measures undeclared ones in a run. */
 static void put_ranges(FILE *out, const image *im) {
     bool any = false;
     for (int i = 0; i < im->reals + im->inputs; i++) {

@@ -50,7 +50,7 @@ void matrix_octave(FILE *out, const image *im, const char *file);
 
 /* === the contents of an image, for programs (docs/describe.md) and for readers ================ */
 
-/* Increased when a field is removed or changes its meaning; new fields may appear at any time. */
+/* Version of the JSON object. It increases when a field is removed or changes its meaning, not for new fields. */
 #define DESCRIBE_VERSION 1
 
 /* Writes one JSON object. `file`: the .whirl file. */

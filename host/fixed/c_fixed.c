@@ -76,7 +76,7 @@ static void quotient(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
     fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n", o->spread > 0 ? 'u' : 'd',
             i, o->negated ? "0U - " : "", o->b.op, o->zeros);
-    if (o->spread == 1) { /* a sign bit is the whole choice: shift by 0 or 1 */
+    if (o->spread == 1) { /* the top bit decides between shifts by 0 and by 1 */
         fprintf(out, "    const int z%d = (int)(~u%d >> 31);\n", i, i);
     } else if (o->spread > 1) {
         fprintf(out, "    const int z%d = wh_fixed_zeros(u%d);\n", i, i);

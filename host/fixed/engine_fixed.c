@@ -135,7 +135,7 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
     }
 }
 
-/* The largest size of `lost` of component i since the start, angles first. *span: its range without round-off. SI. */
+/* Returns the largest |lost| of component i (angles first). *span: the component's range without round-off. SI. */
 static double fixed_loss_off(const fixed_loss *l, int i, double *span) {
     *span = l->component[i].high - l->component[i].low;
     return l->component[i].most;
@@ -421,7 +421,7 @@ static void run_set_input(void *of, int input, double value) {
     const double high = f->high;
     const double wished = number_nearest(number_scaled(value, f->bits));
     const double held = wished < low ? low : wished > high ? high : wished;
-    /* as in wh_fixed_of() */
+    /* up to one unit beyond an end counts as inside, as in wh_fixed_of() */
     run->state.saturated += wished < low - 1.0 || wished > high + 1.0;
     run->state.input[input] = (int32_t)held;
 }

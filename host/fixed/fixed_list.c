@@ -118,7 +118,7 @@ static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
 
-/* As many digits after the point as fit with the operands' largest sizes, so that only left shifts are needed. */
+/* Returns the digits after the point with which the product of the operands' largest sizes fits. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
@@ -166,7 +166,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     }
 }
 
-/* Raises wanted[i] to the digits of operation i that its user `o` can use: for a sum, at most its own. */
+/* Raises wanted[i] to the digits of operation i that its user `o` can use: a sum or comparison uses at most o->bits. */
 static void request(int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -481,7 +481,7 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* The round-off of an operation: half a unit, plus that of shifted operands, with a margin. */
+/* Bounds an operation's round-off, half a unit each for the result and for shifted operands, by four units. */
 static double rounding_of(const hull *h, const fixed_op *o) {
     const bool rounds = o->code > FIXED_PHASE;
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;

@@ -143,7 +143,7 @@ static fixed_gain short_gain(double factor, int from, int to) {
     return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
 }
 
-/* As many digits after the point as fit in a component that changes by at most 2 `by`, but fewer than `list_bits`. */
+/* Returns the digits after the point that fit a component in `range` that changes by 2 `by`; fewer than `list_bits`. */
 static int kept_bits(enclosure range, double by, int list_bits) {
     const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
@@ -181,7 +181,7 @@ static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     return m->to_kept >= 1 && make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept);
 }
 
-/* For a second-order coordinate, whose position changes by rate and acceleration. */
+/* Sets how rate and acceleration are added to the position of a second-order coordinate. */
 static bool move_place(fixed_plan *p, int i) {
     const image *im = p->image;
     fixed_mover *m = &p->mover[i];
@@ -270,8 +270,8 @@ static double most_added(const fixed_plan *p, int at) {
            (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
 }
 
-/* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so this is
- * repeated until it returns true: they were wide enough. */
+/* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so the
+ * caller repeats this until the result is true: the stages were wide enough. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -286,8 +286,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* Finds the range of every value, from those of the state at a stage (p->stage). Returns false after an error (reported), such as values that
- * are too large. ranges_alone: these are still the declared ranges. */
+/* Finds the range of every value of the list from p->stage, the ranges of the state at a stage. Returns false after an
+ * error (reported), such as a value that is too large. ranges_alone: p->stage is still p->range. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);
@@ -319,7 +319,7 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Chooses the binary points: the ranges determine those of the list's results, and these those of the state. */
+/* Chooses the binary points. The ranges determine the points of the list's results, which determine the state's. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;

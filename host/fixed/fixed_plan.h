@@ -26,7 +26,7 @@ typedef struct fixed_gain {
  *     q2 = q + W    q3 = q + W + h/2 A1    q4 = q + 2 W + h A2    q+ = q + 2 W + h/3 (A1 + A2 + A3)
  *
  * First order: a component moves as v does. A1 to A4 have `to_kept` more digits after the point than v. W and the terms
- * added to it have `guard` more than q. */
+ * added to W have `guard` more digits than q. */
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;

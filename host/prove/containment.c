@@ -49,8 +49,8 @@ static void read_run(const reading *r, void *run) {
     }
 }
 
-#define LITTLE 1e-3 /* least range, relative to the size, or to a range in the same unit */
-#define STILL 1e-9  /* least range, SI: a tube has a width even if nothing moves */
+#define LITTLE 1e-3 /* least range, relative to a state's size or to a range of its unit */
+#define STILL 1e-9  /* SI; replaces a range of 0, because a tube always has a width */
 
 static const char *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];

@@ -45,7 +45,7 @@ typedef struct containment_state {
     containment_verdict verdict;
     bool open;
     bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
-    double range; /* range in the run, at least a thousandth of its largest size */
+    double range; /* range in the run, at least 1e-3 of the largest value's size */
     /* allowed error: the requested one, or the tolerance times the largest of the state's range and a thousandth of the
      * ranges in the same unit */
     double within;

@@ -106,7 +106,7 @@ static bool not_linear(making *k, const term *t) {
     return false;
 }
 
-/* Builds left - right = 0. host/derive has checked in the normal form that it is linear in the highest derivatives. */
+/* Builds left - right = 0. In host/derive's normal form, left - right is linear in the highest derivatives. */
 static bool given_outright(making *k) {
     graph *g = k->graph;
     const mechanism *m = k->instance->mechanism;

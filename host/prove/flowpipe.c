@@ -211,7 +211,7 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
     }
 }
 
-/* Finds axes along the longest generators, and their inverse. If that has no enclosure, the unit axes are used. */
+/* Finds axes along the longest generators, and their inverse. If the inverse has no enclosure, uses the unit axes. */
 static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     const int n = z->n;
     double *columns = alloc((int64_t)n * n, sizeof *columns);
@@ -277,7 +277,7 @@ static void sort_by_size(zonotope *z) {
     free(sorted);
 }
 
-/* Replaces the smaller half of the generators by a box along axes. Its corners' round-off is added to rounding[n]. */
+/* Replaces the smaller half of the generators by a box along axes. The box's round-off is added to rounding[n]. */
 static void reduce(zonotope *z, double *rounding) {
     const int n = z->n;
     double *axes = alloc((int64_t)n * n, sizeof *axes);
@@ -341,7 +341,7 @@ void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
 
 /* === the tube ================================================================================= */
 
-#define REMAINDER 0x1p-54 /* most of a step, relative to the state's largest value so far */
+#define REMAINDER 0x1p-54 /* largest remainder of a step, relative to a state's largest value */
 #define STEP_LEAST_S 1e-9 /* the tube ends if a step would have to be shorter */
 #define STEP_FIRST_S 0.01
 enum { TRIALS = 60, GENERATORS = 3000 };
@@ -557,7 +557,7 @@ static bool all_finite(const flowpipe *t) {
     return good;
 }
 
-/* Moves the centre by the middle of the displacement, so that little precision is lost. left[]: the rest. */
+/* Moves the centre by the middle of the displacement, so that little precision is lost. left[]: its other part. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);
@@ -579,7 +579,7 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
     t->products +=
-        2.0 * (double)n * (double)n * (double)t->off->count; /* and flowpipe_open()'s products */
+        2.0 * (double)n * (double)n * (double)t->off->count; /* map, and zonotope_frame() */
     for (int i = 0; i < n; i++) {
         /* the derivatives must hold on the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

@@ -264,10 +264,10 @@ int graph_power(graph *g, int a, enclosure exponent) {
 
 /* === derivatives ============================================================================== */
 
-/* The new node for each node visited so far. The walk adds nodes, but looks up only earlier ones. */
+/* A walk that makes a new node for each old node. The new nodes are added to the same graph, but never visited. */
 typedef struct rewriting {
     graph *graph;
-    int *to; /* [number of nodes at the start] -1: not yet */
+    int *to; /* [number of old nodes] the new node; -1: not made yet */
     int variable;
 } rewriting;
 

@@ -1,7 +1,7 @@
 /* graph.h: expressions as a graph of operations in which equal subexpressions are one node. Nothing is rounded or
  * dropped: numbers are enclosures, and simplifications hold for all real values (0 + x, 1 x, x - x). So enclosing the
- * nodes encloses the motion of the given energies, without the algebra's normal form, which drops terms below 1e-14. A
- * node is a number from 0 on, above those of its operands. */
+ * nodes encloses the motion of the given energies, without the algebra's normal form, which drops terms below 1e-14.
+ * Nodes are numbered from 0; a node's number is above those of its operands. */
 #ifndef PROVE_GRAPH_H
 #define PROVE_GRAPH_H
 

@@ -10,7 +10,7 @@ typedef struct taylor {
     const exact_motion *motion;
     int order;        /* order of the highest computed coefficient */
     int slopes_to;    /* order of the highest coefficient with derivatives; -1: none */
-    int width;        /* entries of a coefficient: 1, or 1 + states with slopes */
+    int width;        /* stride of value[]: 1 + states if slopes_to >= 0, else 1 */
     enclosure *value; /* [nodes][order + 1][width] */
 } taylor;
 

@@ -53,7 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the largest let of which a multiple is a part of p (`whole`: all of p), or NULL. *rest: the other part. */
+/* Returns the longest let that, times *ratio, is contained in p (`whole`: equals p), or NULL. *rest: p without it. */
 static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
                               double *ratio) {
     let_row *best = NULL;
@@ -521,7 +521,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     free(pieces);
 }
 
-/* A number of which all coefficients are small whole multiples, or 1. */
+/* Returns the smallest coefficient if all others are whole multiples of it, up to 100; else 1. */
 static double common_multiple(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
@@ -584,7 +584,7 @@ const poly *show_common(algebra *a, const poly *p) {
     return common;
 }
 
-/* The parameter in the most terms, if in two or more; else NULL. */
+/* Returns the parameter that occurs in the most terms, at least in two; else NULL. */
 static const atom *shared_parameter(const poly *p) {
     const atom *best = NULL;
     int best_uses = 1;

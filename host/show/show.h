@@ -31,7 +31,7 @@ typedef struct show_row {
     show inner;
 } show_row;
 
-/* Returns the show that writes the row. Text is written without line breaks. */
+/* Returns the show that writes the row. SHOW_TEXT writes the row to s->out at once, without line breaks. */
 show *show_row_begin(show_row *row, const show *s);
 void show_row_end(show_row *row);
 

@@ -122,7 +122,7 @@ static int width_of_command(span *s) {
     return begins(of, "sqrt") ? 9 : begins(of, "times") ? SIGN : 7;
 }
 
-/* Rounded up. Scripts count as wide as their base. */
+/* Returns the width, rounded up. Subscripts and superscripts count as full-sized. */
 static int width_of_character(char c) {
     return strchr("+-", c) != NULL         ? SIGN
            : c == '='                      ? EQUALS
@@ -399,7 +399,7 @@ static void latex_rows(const show *s, const contact_law *law, const char **betwe
     }
 }
 
-/* Uses the style of `s`, and its names for sums. */
+/* Prints the contacts in the style of `s`. Sums that `s` has names for are printed as names. */
 static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
@@ -666,7 +666,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divides *top and *bottom by their common factors. The factor 0.7391 keeps equal terms of both from cancelling. */
+/* Divides *top and *bottom by their common factors. The factor 0.7391 keeps their terms from cancelling in `both`. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
