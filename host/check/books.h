@@ -46,7 +46,7 @@ typedef struct books {
     double input_J;       /* work of the inputs since the start */
     double loss_J;        /* losses since the start */
     double power_W[2][2]; /* input and loss power: [0] after 0, 2, 4, ... steps, [1] a step later */
-    spread kinetic;       /* of moving_J[1] */
+    spread kinetic;       /* of the values of moving_J[1] */
     spread stored;
     spread *rate; /* [count] */
     spread *push; /* [count] momenta without rateless[] */

@@ -12,7 +12,7 @@
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
 
-/* Enters the entries of the run's own ledger. */
+/* Enters the entries of the run's own ledger into the balance. */
 static void enter_kept(const image *im, const engine_kind *kind, const void *run,
                        energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);

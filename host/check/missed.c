@@ -391,7 +391,7 @@ static void go(taylor_bounds *a, double low, double high) {
         const double most = number_most(fabs(curve[0]), fabs(curve[2]));
         const enclosure slopes_on = between(slope[0], slope[2], bend * fabs(third));
         const enclosure curves = between(curve[0], curve[2], 0.0);
-        /* positions are enclosed to their round-off, as the state is known only up to it */
+        /* positions are enclosed to their round-off: the state is not known more exactly */
         const jet middle_rate = {{enclosure_of(slope[1]), enclosure_of(curve[1]), unknown}};
         const jet part_rate = {{slopes_on, curves, enclosure_of(third)}};
         a->middle.position[i] = (jet){{enclosure_about(at[1], 0), middle_rate.f[0], unknown}};
@@ -412,7 +412,7 @@ static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
         engine_operations += (uint64_t)(BOUNDS * a->list->count + WAY * a->image->coordinates);
         go(a, 0.0, 1.0);
         memcpy(a->natural.position, a->part.position,
-               2 * (size_t)a->image->coordinates * sizeof(jet)); /* with the rates */
+               2 * (size_t)a->image->coordinates * sizeof(jet)); /* copies the rates, too */
         for (int i = 0; i < a->list->count; i++) {
             a->natural.of[i] = value_of(a, &a->natural, &a->list->ops[i]);
         }
@@ -464,8 +464,8 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
  * times its change over the path. It is round-off below WIDTHS times the width of the bounds at the part's middle. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends. The
- * change of the rate by it must also exceed TURNS times the rate. */
+/* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends. It
+ * must also be able to change the rate by TURNS times the rate within the path. */
 #define HIDDEN 2.0
 #define TURNS 0.05
 /* A gap has an edge if its slope changes by more than EDGE times the slope within 2^-EDGE_HALVINGS of a path. */

@@ -8,8 +8,8 @@
  *
  * Accelerations with a kink, an exponential or a hyperbolic function are bounded in the same way. A force is missed if
  * the acceleration far exceeds those at both ends and would change the rate noticeably. Friction limits that are not
- * constant are bounded, too. A change of the limit is missed if it is far larger between the ends of a sliding
- * path, or too small to keep a sticking friction stuck.
+ * constant are bounded, too. A limit is missed if it is far larger inside a sliding path than at its ends, or
+ * too small inside the path to keep a sticking friction stuck.
  *
  * A stop's gap with abs, max, min or sign may have edges. The core keeps a resting body on its face, even beyond an
  * edge. A step is reported if the slope of such a gap jumps while the body rests. */

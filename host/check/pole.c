@@ -166,7 +166,7 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Is expression i only round-off, because its sign alternates at distances `from` to `most` from the zero? */
+/* Is expression i only round-off near the zero? Its sign then alternates at distances from `from` to `most`. */
 static bool is_rounding(const looker *l, int i, double zero_at, double from, double most) {
     double before = 0.0;
     double off = from;

@@ -65,14 +65,14 @@ static void watch_events(run_checks *v) {
 }
 
 /* The remaining part of BUDGET_LEAST, minus the part reserved for the remaining steps. While the result is below 0, the
- * search for poles is skipped; so the searched steps are spread over the whole run. */
+ * search for poles skips steps; so the searched steps are spread over the whole run. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
     return budget_left(v->budget) / BUDGET_LEAST - share;
 }
 
-#define BEHIND (-1.0 / 16.0) /* below this part_left() the finer run, too expensive, is ended */
+#define BEHIND (-1.0 / 16.0) /* below this part_left() the finer run is too expensive, and ends */
 
 void run_checks_enter(run_checks *v) {
     budget_begin(v->budget);
@@ -99,7 +99,7 @@ void run_checks_enter(run_checks *v) {
 
 /* --- judging -----------------------------------------------------------------------------------------------*/
 
-/* Reports a finding. FINDING_MASS is only a note up to HORIZON_TOLERANCE. */
+/* Reports a finding. FINDING_MASS is only a note if its value is at most HORIZON_TOLERANCE. */
 static void tell(run_checks *v, finding_id id, double value, double at_s, int of) {
     const bool is_note = finding_rows[id].severity == FINDING_NOTE ||
                          (id == FINDING_MASS && value <= HORIZON_TOLERANCE);

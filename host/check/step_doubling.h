@@ -101,7 +101,7 @@ void step_doubling_enter(step_doubling *t);
 void step_doubling_end(step_doubling *t, wh_status status);
 void step_doubling_free(step_doubling *t); /* NULL is fine */
 
-/* Estimated number of operations of both runs; and that of the finer run alone, without its events. */
+/* Estimated operations of both runs; of the finer run alone, without the search for events. */
 double step_doubling_operations(const image *im);
 double step_doubling_finer_operations(const image *im);
 

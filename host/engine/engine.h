@@ -85,8 +85,8 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
                    const double *rate, const double *input, double *result);
 /* The value of this operation of the list in the last evaluator_run(). */
 double evaluator_value(const evaluator *ev, int operation);
-/* Bounds on the round-off of the last evaluator_run(), with its angles: error[results], unit round-offs
- * (rounding.h). */
+/* Bounds on the round-off of the last evaluator_run(), with its angles: error[results], in unit
+ * round-offs (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
 /* A list of an image, evaluated in double at any state. The inputs keep their start values. */

@@ -23,7 +23,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 /* Returns false, and reports each error, if float, as in generated C, cannot represent a start angle. */
 bool start_angles_are_held(const image *im, diags *errors);
 
-/* False, reported: the method (core/method.h) does not support the image's form, or its accelerations' rates. */
+/* False, reported: the method (core/method.h) does not support the image's form, or accelerations with rates. */
 bool start_has_method(const image *im, wh_method method, diags *errors);
 
 #endif
