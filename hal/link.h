@@ -25,7 +25,7 @@ unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* A timer for computing times, which wraps at 2^32, and its counts per second (0: the timer is unusable). */
+/* A timer that measures computing times and wraps at 2^32; its counts per second (0: the timer is unusable). */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 

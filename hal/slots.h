@@ -30,7 +30,7 @@ typedef struct hal_slot_edge {
 bool hal_slots_take(hal_slot_edge *edge);
 
 /* Returns how often edges were lost, or may have been: an edge came before the previous one was read, or the queue was
- * full. Capture then pauses until an edge is taken, so that a storm of edges takes no computing time. */
+ * full. A full queue pauses the capture until an edge is taken, so that a storm of edges takes no computing time. */
 uint32_t hal_slots_overruns(void);
 
 WH_C_END

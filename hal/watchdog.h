@@ -1,5 +1,5 @@
-/* watchdog.h: cuts the motor's drive if the controller falls silent. Do not call these functions in an interrupt: it
- * could keep a hanging controller alive. */
+/* watchdog.h: cuts the motor's drive if the controller falls silent. Do not call these functions in an interrupt,
+ * because interrupts may go on if the controller hangs. */
 #ifndef HAL_WATCHDOG_H
 #define HAL_WATCHDOG_H
 

@@ -46,7 +46,7 @@ typedef struct wh_conf {
     wh_rig_config *config;         /* the rig's configuration, updated with each change */
     wh_real value[WH_CONF_COUNT];
     wh_real standard[WH_CONF_COUNT]; /* defaults */
-    bool given[WH_CONF_COUNT];       /* true if the user has set it, even to its default */
+    bool given[WH_CONF_COUNT];       /* true if the user has given a value, even the default */
     /* sequence number of the record that was loaded or saved last; 0: none */
     uint32_t sequence;
 } wh_conf;

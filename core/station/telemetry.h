@@ -70,7 +70,7 @@ typedef struct wh_capture {
     wh_capture_state state;
     unsigned left;        /* number of steps still to record after the trigger */
     unsigned count;       /* number of stored steps */
-    unsigned next;        /* index of the next stored step */
+    unsigned next;        /* index in step[] at which the next step is stored */
     uint32_t first_ticks; /* time of the oldest step, all 32 bits */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;

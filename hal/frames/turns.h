@@ -23,7 +23,7 @@ typedef struct hal_turns {
     wh_readings readings;
     unsigned edge;
     unsigned sample;
-    uint32_t lost;  /* number of edges and samples lost for lack of room */
+    uint32_t lost;  /* number of edges and samples lost because `readings` was full */
     wh_reset reset; /* cause of the start (0: power-on), and remembered bytes */
     wh_frame_reader reader;
     uint8_t line[64]; /* bytes read but not yet processed */

@@ -37,7 +37,7 @@ typedef struct hal_virtual_faults {
     bool dead_sensor[2];     /* the sensor gives no pulse */
     unsigned lose_samples;   /* number of load samples still to lose */
     bool stuck_load_cell;    /* the load cell repeats its last count */
-    float stuck; /* the stage applies this part of the supply for any command; 0: no fault */
+    float stuck; /* fraction of the supply voltage that is applied for any command; 0: no fault */
     bool deaf;   /* with `stuck`, the stage also ignores the enable; only the watchdog cuts it */
     bool freewheels; /* the stage cannot brake */
 } hal_virtual_faults;
