@@ -26,8 +26,8 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
 }
 
 /* Letters and UTF-8 are literal. Other characters are octal codes, which cannot form a `command`, a @macro, an escape
- * or a quote. Digits are octal, too, because they could extend a code. Control characters become blanks: XML has none.
- * Nor may XML have "]]>", whose > gnuplot does not escape: an invisible character (U+2060) splits it. */
+ * or a quote. Digits are octal, too, because they could extend a code. Control characters become blanks,
+ * which XML allows. XML forbids "]]>", and gnuplot does not escape >, so an invisible character (U+2060) splits it. */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;
@@ -49,7 +49,7 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
-/* Shows gnuplot's messages. Its complaint about the axis of a panel without points is replaced by the reason. */
+/* Shows gnuplot's messages. If they are about an axis without a range, shows the reason instead: no points. */
 static void show_said(FILE *said) {
     char *text = NULL;
     size_t size = 0;
@@ -113,7 +113,7 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
         perror("whirl: error: a temporary file");
         return give_up(g);
     }
-    /* gnuplot draws to standard output, because a file name could begin with | or ~. Messages are for failures. */
+    /* gnuplot draws to standard output, because a file name could begin with | or ~ */
     g->to = system_write_to("LC_ALL=C.UTF-8 gnuplot", g->drawn, g->said);
     if (g->to == NULL) {
         perror("whirl: error: gnuplot");
@@ -136,7 +136,7 @@ static void put_xml(FILE *to, const char *text) {
     }
 }
 
-/* Makes an SVG dark on a dark page. gnuplot writes colours in exactly these words. */
+/* Makes an SVG dark on a dark page. The selectors are spelled as gnuplot writes colours. */
 static const char dark[] =
     "<style>@media (prefers-color-scheme:dark){#gnuplot_canvas>rect{fill:" PALETTE_DARK "}"
     "text{fill:#e6edf3}[color=\"black\"]{color:#e6edf3}"

@@ -8,7 +8,7 @@
 /* === colours and shapes ================================================================================== */
 /* Every line colour has a contrast of 3:1 (WCAG 2.1, 1.4.11) with a white and a dark page. Two line colours differ by
  * at least 13 (CIELAB), in normal vision and with each colour blindness (Machado, Oliveira and Fernandes, 2009).
- * tests/host/test_plot.c computes both. mk/curves/chart.sh also reads the rows of lines. */
+ * tests/host/test_plot.c computes both. mk/curves/chart.sh also reads PALETTE_LINE_ROWS. */
 
 #define PALETTE_LINE_ROWS(X) \
     X("#0072b2") \
@@ -29,7 +29,7 @@
 
 #define PALETTE_WHITE "#ffffff"
 #define PALETTE_DARK "#0d1117"
-/* Frames, tics and a figure's laws. Its contrast with both pages is 3:1, too. */
+/* Colour of frames, tics and a figure's "law" curves, with a contrast of 3:1 with a white and a dark page. */
 #define PALETTE_FRAME "#767676"
 #define PALETTE_GRID "#d8d8d8"
 #define PALETTE_SHADE "#e4e4e4"
@@ -62,7 +62,7 @@ static inline int palette_point(int i) {
 
 typedef struct gnuplot {
     FILE *to;      /* gnuplot's commands */
-    FILE *said;    /* gnuplot's messages */
+    FILE *said;    /* gnuplot's messages, shown after a failure */
     FILE *drawn;   /* the picture by gnuplot */
     FILE *picture; /* the final file */
     const char *file;
@@ -70,7 +70,7 @@ typedef struct gnuplot {
     const char *text;
 } gnuplot;
 
-/* Does the file's name end in .svg, .png or .pdf? If not, reports the option. */
+/* Does the file's name end in .svg, .png or .pdf? If not, reports the error with this option. */
 bool gnuplot_can_draw_for(const char *command, const char *option, const char *file);
 
 /* Returns false (reported) if gnuplot is missing. */

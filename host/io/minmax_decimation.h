@@ -1,7 +1,7 @@
 /* minmax_decimation.h: min–max decimation of a run for a picture, in bounded memory. A "bucket" of consecutive steps
  * keeps the least and the greatest value of every column, in their order of time. No peak is lost, and a vibration
  * faster than the picture's resolution appears as a band, not as a slower vibration. A bucket is one step at first.
- * When all are full, pairs are merged, and the size doubles: at least half of the buckets are used. */
+ * When all buckets are full, pairs are merged, and their size doubles, so at least half of the buckets are used. */
 #ifndef IO_MINMAX_DECIMATION_H
 #define IO_MINMAX_DECIMATION_H
 
@@ -21,7 +21,7 @@ void decimation_free(decimation *v); /* NULL is allowed */
 void decimation_enter(decimation *v, const double *row);
 
 /* The rows to draw: one for a bucket of one step, else two, with each column's least and greatest value in order of
- * time. A rising column, such as the time, has its first and its last. The caller frees the result. */
+ * time. For a rising column, such as the time, these are the bucket's first and last. The caller frees the result. */
 double *decimation_rows(const decimation *v, int *rows);
 
 #endif

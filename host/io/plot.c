@@ -354,7 +354,7 @@ static bool write_beside(const char *csv, const char *text) {
     }
     const bool good = to != NULL && atomic_file_close(to, file, true);
     if (!good) {
-        atomic_file_not_whole(); /* after the work, this is a failure, not bad input */
+        atomic_file_not_whole(); /* an unwritable file is bad input only before a run */
     }
     free(file);
     return good;
@@ -760,7 +760,7 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* The legend's entry for the shade, or "". Short for several runs: the longest entry sets the legend's column width. */
+/* The entry for the shade, or "". Several runs need a short one: the longest entry sets the width of all columns. */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? alloc_words("%s", "")
@@ -777,7 +777,7 @@ static int marks_in(const plot_run *runs, int count) {
     return marks;
 }
 
-/* The lines of a panel's legend, whose columns are as wide as its longest entry. */
+/* The number of lines of a panel's legend. All its columns are as wide as the longest entry. */
 static int key_lines(const panels *p, const plot_run *runs, int panel, bool time) {
     const bool signs = time && panel == 0;
     char *trusted = trust_sign(runs, p->runs);

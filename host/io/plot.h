@@ -41,8 +41,8 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run);
 /* Writes CSV.toml about the run: lines `facts` first, `tables` last. Returns false after an error (reported). */
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 
-/* Closes the CSV file of a command about a scene (or ""), like atomic_file_close(). For a regular file, then writes
- * CSV.toml with version, command and scene. Returns false after an error (reported). */
+/* Closes a CSV file like atomic_file_close(). Then, for a regular file, writes CSV.toml with version, `command` and
+ * `scene` ("": none). Returns false after an error (reported). */
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene);
 

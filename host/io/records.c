@@ -72,7 +72,7 @@ static int column_of(const records *r, int unknown_index, int primes) {
 
 typedef struct layout {
     const char *header, *between, *end;
-    const char *unit; /* before a unit's bracket: a blank would split plain columns */
+    const char *unit; /* between name and [unit]; a blank would split plain columns */
 } layout;
 
 static const layout csv = {"", ",", "\r\n", " "};

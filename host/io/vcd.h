@@ -27,7 +27,7 @@ int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note);
 /* Sets the value from this time (at least 0) on. A wire is 0 for 0, unknown for NaN, and 1 for other values. */
 void vcd_change(vcd *v, int signal, int64_t time, double value);
 
-/* No change before this time will follow. */
+/* The caller promises that no change before this time will follow. */
 void vcd_settle(vcd *v, int64_t time);
 
 /* Writes pending changes and the end time, and frees `v`, which may be NULL. */

@@ -181,7 +181,7 @@ static int64_t time_of(recording *r, uint32_t ticks) {
     return r->time_us + (int32_t)(ticks - r->ticks);
 }
 
-/* time_of() measures later ticks from these. */
+/* Sets the ticks, and their time, from which time_of() measures. */
 static void go_on(recording *r, uint32_t ticks) {
     r->time_us = time_of(r, ticks);
     r->ticks = ticks;
@@ -366,7 +366,7 @@ static void take_ring(recording *r, const schema_channel *c, const wire_frame *f
     }
     uint32_t ticks = frame->ticks;
     for (const uint8_t *at = frame->payload; at < frame->payload + frame->length;) {
-        /* the payload has only the low 16 bits */
+        /* a row has only the low 16 bits of its ticks */
         ticks += (uint16_t)(wire_number(at, 2) - ticks);
         fprintf(r->ring, "%.6f", (double)time_of(r, ticks) / TICKS_PER_S);
         at += 2;
@@ -404,7 +404,7 @@ bool recording_plot(const recording *r, const schema *s, const char *file) {
     for (int i = 1; i < r->columns; i++) {
         const schema_field *field = i <= c->eaches ? &c->each[i - 1] : &c->once[i - 1 - c->eaches];
         const bool has_unit = strchr(field->name, '[') != NULL;
-        /* the plot omits rates: give this name to a column without a unit */
+        /* a column without a unit gets the name of a rate, because the plot omits rates */
         plot_run_head(&run, i, has_unit ? field->name : "der()");
         any = any || has_unit;
     }

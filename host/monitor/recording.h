@@ -48,7 +48,7 @@ typedef struct recording_counts {
     uint64_t pulses;
     uint64_t lost;         /* missing frames */
     uint64_t dropped;      /* missing frames that the rig dropped for lack of space */
-    uint64_t lost_samples; /* missing samples, by time stamps */
+    uint64_t lost_samples; /* missing samples, from gaps between time stamps */
     uint64_t strange;      /* frames that fit no known schema */
     uint64_t restarts;     /* restarts of the rig */
 } recording_counts;

@@ -47,7 +47,7 @@ static wire_event end_chunk(wire *w) {
     return WIRE_FRAME;
 }
 
-/* Adds a byte. Two bytes after a zero belong to a frame if the second one is at least 0x80, else to text. */
+/* Adds a byte. The two bytes that follow a zero begin a frame if the second one is at least 0x80, else text. */
 static wire_event add(wire *w, uint8_t byte) {
     if (!w->is_frame && w->length == 1U) {
         w->is_frame = byte >= 0x80U;
@@ -96,8 +96,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* The rate comes last: its frames can be read only after their schema. Only the first answer is unique: earlier lines
- * may answer another program's questions. */
+/* "tel rate" comes last, because it starts frames, which only their schema explains. "id" comes first, because its
+ * answer is unique. Lines before that answer may be for another program's questions. */
 static const struct {
     const char *words;
     const char *answer; /* beginning of the answer */

@@ -28,7 +28,7 @@ typedef struct wire {
     char line[WIRE_LINE + 1]; /* received text; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
-    bool torn; /* line may begin with bytes of a frame: it had a zero, or follows wire_forget() */
+    bool torn; /* a zero or wire_forget() came in this line, which may begin with a frame's bytes */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
     uint64_t damaged; /* chunks between zeros that are no frame */
 } wire;
@@ -47,7 +47,7 @@ void wire_forget(wire *w);
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* Answers until the rig is present (MET), was_off is known (LISTED), and earlier telemetry has ended (OFF). */
+/* Values of `asked` when the rig has answered (MET), was_off is known (LISTED), and telemetry is off (OFF). */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
 /* All zeros, except `rate`, before the first question. */

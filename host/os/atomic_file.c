@@ -110,7 +110,7 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
         fputc('\n', file);
         (void)fflush(file);
     }
-    /* before the lock ends: afterwards NAME.part may belong to another process */
+    /* rename or remove before fclose() unlocks NAME.part: later it may be another process's */
     bool good = taken && (in_place || !keep || rename(part, name) == 0);
     if (!in_place && !(good && keep)) {
         (void)unlink(part);

@@ -11,8 +11,8 @@ FILE *atomic_file_open(const char *name);
 /* Like atomic_file_open(), but in place, so that the file can be read while it grows. "-" is an ordinary name. */
 FILE *atomic_file_open_in_place(const char *name);
 
-/* Closes the file, which may be NULL, and replaces the old one if all text was written and `keep`. A file of another
- * function is only closed. Standard output is checked at the program's end (host/whirl.c). False: reported. */
+/* Closes the file, which may be NULL. NAME.part replaces NAME if all text was written and `keep`. A file written in
+ * place is only closed. Standard output is checked at the program's end (host/whirl.c). False: reported. */
 bool atomic_file_close(FILE *file, const char *name, bool keep);
 
 /* Is an open file neither a device nor a pipe? */

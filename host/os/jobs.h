@@ -1,6 +1,6 @@
-/* jobs.h: points computed by several processes. The next free worker takes the next number from a pipe. Rows come back
- * over a pipe for each worker, and are delivered in the order of points as soon as possible. A row must depend on its
- * point alone: then the output is the same for any number of workers. Workers end with their parent. */
+/* jobs.h: points computed by several processes. The next free worker takes the next point's number from a pipe. Rows
+ * come over a pipe for each worker, and are delivered in the order of points as soon as possible. A row must depend on
+ * its point alone: then the output is the same for any number of workers. Workers end with their parent. */
 #ifndef OS_JOBS_H
 #define OS_JOBS_H
 

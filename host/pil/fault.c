@@ -35,7 +35,7 @@ static bool is_of(const fault_case *f, unsigned channel) {
 
 /* --- edges ---------------------------------------------------------------------------------------------------*/
 
-/* Inserts the edge in order of time stamps, like a timer; drops it if there is no space. */
+/* Inserts the edge in order of time stamps, as a timer would deliver it. Drops it if there is no space. */
 static void add_edge(wh_readings *r, wh_edge edge) {
     if (r->edges == WH_EDGES_MAX) {
         return;

@@ -150,7 +150,7 @@ typedef struct fault_case {
     double value;  /* the note's value that begins the fault */
     double after_s;
     double duration_s;
-    /* While it runs: */
+    /* During a run: */
     int note_at;  /* the note's index in orders.output */
     bool reached; /* the note has reached `value`, or there is no note */
     bool active;
@@ -169,7 +169,7 @@ typedef struct fault_plan {
     uint32_t seed;
     unsigned count;
     fault_case fault[FAULTS_MAX];
-    /* While it runs: */
+    /* During a run: */
     plant *plant;
     const wh_hello *hello;
     double ticks_per_s;

@@ -1,5 +1,5 @@
-/* lockstep.h: a firmware image and a plant (or a tape in its place) that compute by turns until the firmware ends. Each
- * waits for the other, so a run is reproducible. Computing takes plant time: instructions times seconds per
+/* lockstep.h: a firmware image and a plant, or a tape instead of the plant, that compute by turns until the firmware
+ * ends. Each waits for the other, so a run is reproducible. Computing takes plant time: instructions times seconds per
  * instruction. This delays the firmware's outputs and its next readings. */
 #ifndef PIL_LOCKSTEP_H
 #define PIL_LOCKSTEP_H
@@ -9,9 +9,9 @@
 #include "host/os/guest.h"
 #include "host/pil/plant.h"
 
-/* The interface for faults (fault.h) and observers. Its functions are called before the first message, after each
- * message of the firmware, and before each message to it; they may change the message. orders() may add to *late_s, the
- * time until the answer. A tape has the messages that the firmware received and sent. NULL: no call. */
+/* The interface for faults (fault.h) and observers. start() is called before the first message. orders() may change
+ * each message of the firmware, and add to *late_s, its delay. readings() may change each message to the firmware. A
+ * tape has the messages that the firmware received and sent. A NULL function is not called. */
 typedef struct tap {
     void *of;
     bool (*start)(void *of, const wh_hello *hello,
@@ -35,7 +35,7 @@ typedef struct lockstep_request {
 
 typedef enum lockstep_end {
     LOCKSTEP_DONE,      /* the firmware ended, with `status` */
-    LOCKSTEP_LET_GO,    /* until_s, or the end of the tape */
+    LOCKSTEP_LET_GO,    /* the run reached until_s, or the end of the tape */
     LOCKSTEP_BAD,       /* impossible settings (reported) */
     LOCKSTEP_FAILED,    /* reported */
     LOCKSTEP_DIFFERENT, /* the orders differ from the tape's (reported) */

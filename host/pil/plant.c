@@ -468,8 +468,8 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* Does the step enter the edge's range? *level: the end of the range that it crosses; for an angle, shifted by turns to
- * the first one in the direction of motion. */
+/* Does the quantity enter the edge's range in this step? *level: the crossed end of the range; for an angle, shifted by
+ * turns to the next one in the direction of motion. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;
@@ -571,7 +571,7 @@ bool plant_advance(plant *p, double until_ticks) {
     return true;
 }
 
-/* Counts the due entries in *there. Returns at most `most`: entries beyond that are lost. */
+/* *there: the number of readings that are due. Returns how many are delivered: at most `most`; the others are lost. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
     while (*there < q->count && q->event[*there].at_ticks <= plant_now(p) + NEARLY) {
@@ -583,7 +583,7 @@ static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) 
 
 static void shift(plant_queue *q, unsigned gone) {
     q->count -= gone;
-    if (gone > 0) { /* without entries there may be no memory */
+    if (gone > 0) { /* event may be NULL if the queue is empty */
         memmove(q->event, q->event + gone, q->count * sizeof q->event[0]);
     }
 }

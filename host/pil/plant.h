@@ -18,7 +18,7 @@ enum { BOUND_NAME = 80 };
 
 typedef struct bound {
     wh_signal signal;         /* its texts are in the hello */
-    char renamed[BOUND_NAME]; /* the scene's name; "": the firmware's */
+    char renamed[BOUND_NAME]; /* the signal's name in the scene; "": the same */
     unsigned channel;
     bound_place place;
     int index;  /* of the input, output or state component (angles first) */
@@ -56,8 +56,8 @@ typedef struct recorded {
     uint64_t every; /* steps between rows */
 } recorded;
 
-/* Records a row every every_s seconds. every_s < 0: every millisecond, or each step if that is no whole number of
- * steps. `name` NULL: nothing. Returns false (reported) if every_s is no multiple of the step, or the file fails. */
+/* Records a row every every_s seconds. every_s < 0: every millisecond, or each step if a millisecond is no whole
+ * number of steps. `name` NULL: nothing. False: reported; every_s is no multiple of the step, or the file fails. */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
 /* Returns false (reported) if the file is incomplete. */
 bool recorded_close(recorded *r);
@@ -66,8 +66,8 @@ bool recorded_close(recorded *r);
 typedef struct plant_request {
     double place[WH_SIGNALS_MAX]; /* position error of an edge's sensor; deg for angles, else SI */
     unsigned places;
-    double jitter_s; /* standard deviation of edge times; plant_start() makes it ticks */
-    double delay_s;  /* delay of samples; plant_start() makes it ticks */
+    double jitter_s; /* standard deviation of edge times; plant_start() converts it to ticks */
+    double delay_s;  /* delay of samples; plant_start() converts it to ticks */
     uint32_t seed;   /* of the jitter */
     recorded *rows;  /* NULL: no recording */
 } plant_request;
@@ -88,7 +88,7 @@ typedef struct plant_queue {
 
 /* Resets of the controller's processor, during which the plant's inputs are 0. */
 typedef struct plant_resets {
-    double at_ticks;       /* the next reset, at the end of a step */
+    double at_ticks;       /* time of the next reset, which waits for a step's end */
     double takes_ticks;    /* length of the next reset */
     bool by_watchdog;      /* a starved watchdog resets the processor; false: cuts the outputs */
     double watchdog_ticks; /* length of the watchdog's reset */

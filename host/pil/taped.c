@@ -14,7 +14,7 @@
 #include "host/os/guest.h"
 
 /* === the reader =============================================================================== */
-/* A tape has the line's frames: a hello, then readings and orders in turns; hello and reset after each restart. */
+/* A tape has the line's frames: a hello, then readings and orders in turns. Each restart adds a hello and a reset. */
 
 typedef struct taped {
     const char *name;
@@ -104,7 +104,7 @@ static void taped_close(taped *t) {
     }
 }
 
-/* Does the hello declare all channels? */
+/* Does the hello declare all channels of the turn's messages? */
 static bool has_channels(const taped *t, const taped_turn *turn) {
     const unsigned edges = hello_channels(&t->hello, WH_SIGNAL_EDGE);
     const unsigned samples = hello_channels(&t->hello, WH_SIGNAL_SAMPLE);
@@ -189,7 +189,7 @@ typedef struct rows {
     uint32_t ticks;
     uint64_t heard;              /* the present message's ticks since plant time 0 */
     bool cut;                    /* a row has reported the cut */
-    bool has_rows;               /* value[] was printed */
+    bool has_rows;               /* value[] has the last printed values */
     float value[WH_SIGNALS_MAX]; /* by channel, notes after outputs */
 } rows;
 

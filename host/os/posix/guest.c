@@ -15,7 +15,7 @@
 #include <sys/prctl.h>
 #endif
 
-/* As in hal/link.h. */
+/* DOWN and UP: as in hal/link.h. ABOVE: the lowest temporary descriptor. */
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
 
@@ -76,7 +76,7 @@ static bool place_line(int down, int up) {
            dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
 }
 
-/* Gives the guest a process group, so that Ctrl-C reaches only Whirl, which ends it. If Whirl dies, Linux kills it. */
+/* Gives the guest a process group: Ctrl-C reaches only Whirl, which ends the guest. Linux kills it if Whirl dies. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
@@ -198,7 +198,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe never blocks: guest and host take turns, and it holds a frame. A serial line may be full. */
+/* Waits while a serial line is full. A pipe is never full: it has space for a frame, and guest and host take turns. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {

@@ -45,7 +45,7 @@ typedef struct pool {
     const jobs *jobs;
     worker *workers;
     int started;
-    /* The pipe of numbers. Its read end stays open, so that a write cannot fail if all workers are lost. */
+    /* The pipe of points' numbers. The parent keeps its read end open: else a write fails if all workers are lost. */
     int tickets[2];
     slot *slots; /* [window] by point % window */
     uint64_t window;

@@ -18,7 +18,7 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-/* A command that does not catch interrupts has nothing to finish. */
+/* The handler until interrupts_catch(): before that call, a command has nothing to finish. */
 static void end_at_once(int signal_number) {
     static const char said[] = "whirl: interrupted\n";
     (void)signal_number;
