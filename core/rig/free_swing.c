@@ -79,7 +79,7 @@ static bool advance(wh_swing *swing) {
 
 #define PASSES 12U
 #define SOFT_PASSES 6U
-/* From this pass on, pulses with a large residual are skipped; before, they end the pass. */
+/* From this pass on, pulses with a large residual are skipped. In earlier passes they make take() return false. */
 #define SURE_PASSES SOFT_PASSES
 
 /* Returns the rotor's angle from hanging at a pulse. `lead` is 0 if it turns forwards, twice lead_rad if backwards. */
@@ -130,8 +130,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Least amplitude, rad, and least ratio of the amplitude to friction / gravity. Below either, friction stops the rotor
- * within a swing or two. */
+/* Least amplitude, rad, and least amplitude as a multiple of f/g. Below either limit, friction stops the rotor within a
+ * swing or two. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -143,7 +143,7 @@ static bool is_slow(const wh_swing *swing) {
 
 #define FAR_RAD WH_R(0.5)
 
-/* Adds the pulse that the integration has reached. Returns false if the pass cannot go on. */
+/* Adds the pulse that the integration has reached. Returns false if the integration cannot go on in its direction. */
 static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const wh_free_rotor *way = &swing->way;
     const unsigned sensor = swing->kept_sensor[swing->at];
@@ -226,7 +226,7 @@ static wh_swing_piece move(wh_swing *swing) {
     return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
 }
 
-/* Takes a pulse, then goes on to the next; after the last one, from the first passage to the pulses before it. */
+/* Takes a pulse and selects the next one: first later pulses, then, back from the first passage, earlier ones. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
     const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* -1 wraps to a large index */
@@ -317,7 +317,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
     const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
     const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
     const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
-    wh_real before = h; /* until the rotor reverses, if that is within the step */
+    wh_real before = h; /* time until the rotor reverses, at most h */
     wh_real after = WH_R(0.0);
     wh_real ratio = WH_R(1.0);
     rotor->rate_radps = rate + h * slowed;
@@ -325,7 +325,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
         before = -rate / slowed;
         after = h - before;
         ratio = (pulled + sign * cause[WH_FREE_FRICTION]) / slowed;
-        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* negative: friction holds it */
+        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* negative: the rotor stays at rest */
         rotor->rate_radps = ratio * slowed * after;
     }
     const wh_real both = ratio * before + after;

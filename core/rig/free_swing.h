@@ -15,8 +15,8 @@
  *
  * Gauss's regression refines the guess. The unknowns are q and q' at the first backward passage of the bottom, g,
  * Coulomb and viscous friction over I, and both sensors' positions. The data are the times of all pulses. In the last
- * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. A single pass
- * would not always converge. So the first passes add a variance to each pulse, which falls from pass to pass.
+ * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. One iteration
+ * (pass) may not converge. So the first passes add a variance to each pulse, which falls from pass to pass.
  *
  * The confidence interval is that of the regression, widened by floor_rad, and by large residuals of the pulses. After
  * the rotor has come to rest, each control step does a part of a pass; the whole takes some seconds. */
@@ -123,11 +123,11 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    wh_real lead_rad;  /* angle of the arms before a sensor at its pulse, on either side */
+    wh_real lead_rad;  /* angle from arms to sensor at a pulse, in either direction of rotation */
     wh_real most_rad;  /* largest distance of a sensor from its nominal position, at 95 % */
     wh_real jitter_s;  /* standard deviation of the pulse times */
     wh_real rough_rad; /* further standard deviation of a pulse's angle, as by a coupling's twist */
-    /* Part of the interval from calibration, at 95 %: errors of slot and lead, friction that depends on direction. */
+    /* Calibration uncertainty, at 95 %: errors of slot and lead, and a friction that depends on the direction. */
     wh_real floor_rad;
     wh_real wide_rad; /* largest useful half-width */
     wh_real off_rad;  /* a result is doubtful if sensor 1's error exceeds its half_rad by this */
@@ -193,8 +193,8 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
 /* Call this in every control step; while wh_swing_works(), each step at rest does a bounded part of the work. `swings`:
- * the motor's leads have been open since the rotor last turned forwards in a run. `rests`, in the step in which the
- * leads are closed: the rotor is at rest. If false, the motor stopped it, and the swing was not free. */
+ * the motor's leads have been open since the rotor last turned forwards in a run. `rests`: the rotor is at rest. If it
+ * is not at rest when `swings` becomes false, the swing was not free. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 

@@ -34,12 +34,12 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 
 /* Pulses of one sensor closer than at 1,000 rpm are no turns: 36 V give at most 900 rpm. */
 #define BOUNCE_TICKS 60000U
-/* Factor on the duration from which a turn counts as slower. In a swing only the last two intervals reach it. */
+/* A turn is slower if it takes this many times as long as the one before. In a swing only the last two intervals are. */
 #define LONGER WH_R(1.02)
 #define FASTER WH_R(1.01) /* for a trip: least gain of speed over successive faster turns */
-#define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
-#define ALTERNATE_RISE 6U /* alternating pulses that show three turns of a sensor */
-#define ALONE_PAIR 2U     /* successive pulses of one sensor that show two of its turns */
+#define ALTERNATE_PAIR 4U /* least wh_off.alternate that shows two turns of a sensor */
+#define ALTERNATE_RISE 6U /* least wh_off.alternate that shows three turns of a sensor */
+#define ALONE_PAIR 2U     /* least wh_off.alone that shows two turns of the sensor */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
 /* more pulses than jitter makes while the slot of a hanging rotor is at a sensor */

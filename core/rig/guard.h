@@ -86,8 +86,8 @@ typedef struct wh_off {
     bool doubted; /* released because of one sensor's pulses alone */
     bool asks;    /* released because of alternating pulses: trips if the other sensor fires next */
     uint8_t sensor;    /* number of the last pulse's sensor, 1 or 2; 0: no pulse yet */
-    uint8_t alternate; /* number of successive pulses of alternating sensors */
-    uint8_t alone;     /* number of successive pulses of the same sensor */
+    uint8_t alternate; /* number of successive pulses, each after one of the other sensor */
+    uint8_t alone;     /* number of successive pulses, each after one of the same sensor */
     struct wh_off_turns {
         uint32_t ticks;
         uint32_t turn_ticks;  /* time from the previous pulse to the last one, or 0 */
@@ -126,7 +126,7 @@ bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool c
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. The
- * limit is negative if the speed is too high by config->behind_radps or more. */
+ * limit is negative if the speed exceeds the commanded speed by config->behind_radps or more. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -163,8 +163,8 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
  * bound. A speed that rises faster at two successive pulses than the drive can accelerate the rotor is over-speed, too.
  * `reason` is the trip: WH_TRIP_OVERSPEED, or another with the motor off.
  *
- * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the check needs at
- * least `alternate` pulses of alternating sensors (0 while the motor drives). */
+ * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the check needs
+ * pulses->alternate of at least `alternate` (0 while the motor drives). */
 #define WH_GUARD_BRAKES 1U /* `alternate` with the enable on */
 /* `alternate` with the enable off: larger, because one false pulse corrupts several turns. */
 #define WH_GUARD_COASTS 6U
@@ -188,8 +188,8 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* Checks while the motor drives: the numbers of lost, rejected and doubtful pulses, and a time without a pulse of at
- * most silence_max_s. */
+/* Checks while the motor drives: trips if too many pulses are lost, rejected or doubtful, or if none comes for longer
+ * than silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
@@ -217,8 +217,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* A constant load is timed in pulses, because the load of a jammed rotor is constant, too. Each sample counts at
-     * most one pulse, because in a late controller several older pulses may wait. */
+    /* The duration of a constant load is counted in pulses, because the load of a jammed rotor is constant, too. Each
+     * sample counts at most one pulse, because in a late controller several older pulses may wait. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;

@@ -7,7 +7,7 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* Limits of a turn that counts: gap between two nodes, in sample periods, and one outlier in so many samples. */
+/* Limits of a turn that counts: largest gap between two nodes, in sample periods; least number of samples per outlier. */
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
@@ -304,7 +304,7 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* A gap does not invalidate the prediction, unless outliers caused it: then the load may have changed. */
+    /* A gap does not invalidate the prediction, unless the turn also has outliers: the load may then have changed. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;

@@ -41,7 +41,7 @@ WH_C_BEGIN
  * aliased to harmonics 6 and below, with a fifth of its amplitude. */
 #define WH_REPEATS_BINS 32U
 
-/* The evaluated harmonics. (result.h checks the speed ripple with the second.) */
+/* The evaluated harmonics. (result.h uses the second harmonic to check the speed ripple.) */
 #define WH_REPEATS_FIRST 3U
 #define WH_REPEATS_LAST 6U
 
@@ -148,7 +148,7 @@ typedef struct wh_lockin {
     uint32_t second_ticks;
     uint32_t skipped; /* turns that could not be evaluated */
 
-    /* Queue of samples: index of the oldest one, and number. */
+    /* Queue of samples: index of the oldest one, and number of samples. */
     uint16_t first;
     uint16_t count;
     uint16_t equal; /* successive samples that equal the one before */

@@ -70,8 +70,8 @@ static void repeats_piece(wh_measure *measure) {
     measure->due--;
 }
 
-/* First piece of the scatter and half-widths. Unless pieces must be small, they are one piece, and the means
- * another. */
+/* First of the pieces that compute scatter and half-widths. Unless pieces must be small, one control step does these,
+ * and another the means. */
 #define SCATTER 3U
 
 static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {

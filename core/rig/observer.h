@@ -24,7 +24,7 @@ typedef struct wh_observer_config {
     const wh_scene *scene;
     wh_real stall_Nm;      /* the scene's motor torque at standstill and input 1, > 0 */
     wh_real no_load_radps; /* motor speed without load at the rated voltage, > 0 */
-    /* The scene's input with this motor's torque is per_drive * drive + per_radps * speed. */
+    /* The scene's motor has this motor's torque at the input per_drive * drive + per_radps * speed. */
     wh_real per_drive;
     wh_real per_radps;
     /* The motor stage cannot brake: a voltage below the back-EMF makes no torque. */

@@ -36,7 +36,7 @@ wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint
     if (!wh_run_drives(run)) {
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
-    /* At first the speed without load follows the voltage. Soon after the loop has closed, it follows the set-point. */
+    /* Commanded speed: at first that without load at this voltage; soon after the loop has closed, the set-point. */
     const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
@@ -123,7 +123,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* In the band: the last turn or, because pulses jitter, the mean of several turns. */
+    /* The speed is in the band if the last turn is or, because pulses jitter, the mean of several turns. */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&
@@ -222,7 +222,7 @@ const char *wh_phase_text(wh_rig_phase phase) {
 /* Fractions of a turn by which a pulse may be early. */
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12)
-#define RECORD_PART WH_R(0.8) /* part of the record's speed band */
+#define RECORD_PART WH_R(0.8) /* window of a record, as a part of its relative speed band */
 /* From rest, the bound for the first pulses is this part of the commanded speed, because the rotor lags behind. */
 #define FIRST_PART WH_R(0.8)
 /* The last one or two pulses of a braked rotor come at less than this speed. */
@@ -241,7 +241,7 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
         setpoint.jumps ? guard->climb_start_radps2
                        : wh_guard_climb_radps2(guard, setpoint.setpoint_radps - speed->turn_radps,
                                                wh_run_is_closed(run));
-    /* Falls with the rotor's speed and rises only with the commanded speed, so a runaway drive does not raise it. */
+    /* The bound falls with the rotor's speed and rises only with the commanded speed, not with a runaway drive. */
     run->left_radps = speed->known && speed->turn_radps < setpoint.limit_radps
                           ? speed->turn_radps
                           : setpoint.limit_radps;
@@ -269,9 +269,9 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* Only while the motor brakes: a rotor that swings freely passes the sensors to and fro, and its intervals are no
-     * speeds. Only at sensor 1: a rotor that does not get over the top falls a quarter turn back to sensor 0, which
-     * looks like three quarters forward. */
+    /* `slow` needs a braking motor: a rotor that swings freely passes the sensors to and fro, and its intervals are no
+     * speeds. `slow` needs sensor 2 (index 1): a rotor that does not get over the top falls a quarter turn back to
+     * sensor 1, which looks like three quarters forward. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

@@ -42,14 +42,14 @@ typedef struct wh_pulses {
     wh_real climb_radps;
     wh_real climb_before_radps; /* the same excess at the previous pulse */
     unsigned fast;              /* number of successive intervals with a speed above bound_radps */
-    unsigned alternate; /* number of successive pulses of alternating sensors; 0 in a swing */
+    unsigned alternate; /* successive pulses, each after one of the other sensor; 0 in a swing */
     unsigned doubt;     /* false pulses (no bounces) add 2 each, expected ones subtract 1 */
     uint32_t rejected;  /* number of rejected pulses */
     wh_pulse suspect;
     wh_index_pulse last; /* the last pulse */
     wh_speed speed;      /* speed from the accepted pulses */
     wh_speed before;     /* the speed before the last pulse was taken */
-    wh_speed suspected;  /* the speed if `suspect` is true */
+    wh_speed suspected;  /* the speed if the suspect is a true pulse */
     unsigned confirmed_count;
     wh_index_pulse confirmed[WH_PULSES_CONFIRMED]; /* not yet taken by the caller */
 } wh_pulses;

@@ -11,8 +11,8 @@
  * size, and an unknown torque on the arms. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* Tolerance of the speed ripple, besides the phase's error, for a rotor whose damping differs from the configured one.
- * The quadrature ratio transfers 1/sqrt(2) of the ripple's error to the phase. */
+/* Allowed error of the speed ripple, beyond the phase's half-width, for a rotor whose damping is not the configured
+ * one. The quadrature ratio transfers 1/sqrt(2) of the ripple's error to the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
 /* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared): REPEATS_NOISE for the
@@ -21,13 +21,13 @@
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Repeating residual of a healthy rig, as parts of the force (tests/host/test_repeats_truth.c): coefficients. */
-#define REPEATS_LAG WH_R(0.4)    /* damping, of psi E^2 */
-#define REPEATS_ARROW WH_R(1.6)  /* error of the speed ripple, of E times this error */
-#define REPEATS_CUT WH_R(0.29)   /* a motor that cannot brake enough */
-#define REPEATS_TWICE WH_R(6.0)  /* the ripple of a carriage */
-#define REPEATS_CELL WH_R(1e-4)  /* nonlinearity of the cell */
-#define REPEATS_STEP WH_R(0.012) /* of the square of the angle between two samples */
+/* Coefficients of the repeating residual of a healthy rig, as a part of the force (tests/host/test_repeats_truth.c). */
+#define REPEATS_LAG WH_R(0.4)    /* times psi E^2: damping */
+#define REPEATS_ARROW WH_R(1.6)  /* times E and the error of the speed ripple */
+#define REPEATS_CUT WH_R(0.29)   /* times `cut`: a motor that cannot brake enough */
+#define REPEATS_TWICE WH_R(6.0)  /* times A: the ripple of a carriage */
+#define REPEATS_CELL WH_R(1e-4)  /* constant: nonlinearity of the cell */
+#define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples */
 
 /* Repeating residual because of the pulses' jitter, as a part of the force, per radian of jitter in one turn. */
 #define REPEATS_JITTER WH_R(0.15)
@@ -291,9 +291,9 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
 
 /* Returns the length of the difference between the speed ripple found from the load and that of the angle model. A
  * ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is
- * 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple also changes the model's
- * angle, with the weight 1/2; the sum of the weights is 2. Twice the phase of the first order is subtracted, so the
- * result hardly depends on a delay, and not on the cell's gain. */
+ * 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple changes the second order
+ * by 3/2 of the error, and through the model's angle by another 1/2; so the difference is halved. Twice the phase of
+ * the first order is subtracted, so the result hardly depends on a delay, and not on the cell's gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {

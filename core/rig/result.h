@@ -115,12 +115,12 @@ typedef struct wh_measured {
     wh_real phase_half_rad;
     wh_real expected_N;      /* amplitude expected from masses, speed and mount */
     wh_real residual_N;      /* rms after orders 0 to 2 */
-    wh_real repeats_N;       /* harmonics 3 to 6 of the repeating residual together, or the third */
-    wh_real repeats_limit_N; /* limit from noise and a healthy rig */
+    wh_real repeats_N;       /* residual's harmonics 3 to 6, or 1.27 times the third if larger */
+    wh_real repeats_limit_N; /* largest repeats_N of a healthy rig with this noise */
     wh_real jitter_s;        /* standard deviation of the pulse times */
     wh_real inertia_kgm2;
-    wh_real ripple_off_rad;     /* error of the ripple, as a vector, from the load's second order */
-    wh_real uncompensated_part; /* part of gravity, without its sign; 0 without compensation */
+    wh_real ripple_off_rad; /* size of the ripple's error vector, from the load's second order */
+    wh_real uncompensated_part; /* part of gravity, as a magnitude; 0 without compensation */
     wh_real at_pulse_N[2];      /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
@@ -140,8 +140,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 #define WH_MERGE_MEAN_PIECES 6U
-/* Compute means, minus tare_N, and half-widths (0 with fewer than two turns), in pieces. Call each piece once, in
- * order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
+/* Compute the means (mean_N and at_pulse_N minus tare_N), and half-widths (0 with fewer than two turns), in pieces.
+ * Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);

@@ -130,8 +130,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* Added to WH_RUN_START_S, in which the commanded voltage bounds the speed: a fall of this bound shows only after two
- * more pulses. */
+/* For WH_RUN_START_S the commanded voltage bounds the speed. When this bound falls, two more pulses must exceed it
+ * to trip the rig, so their time is added. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {
@@ -619,7 +619,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     step_run(config, rig, inputs);
-    /* first, because a trip makes the measurement's work useless */
+    /* before measure(), because a trip makes its work useless */
     follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {
         rig->busy = true;
@@ -666,7 +666,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* speed.h takes a rotor that slows down over the top for a gap, and keeps the old speed. */
+    /* If the rotor slows down over the top, speed.h assumes a gap and keeps the old speed. */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;

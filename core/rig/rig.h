@@ -60,7 +60,7 @@ typedef struct wh_rig_order {
 
 #define WH_RIG_ORDERS_MOST 4U /* maximum number of orders between two control steps */
 
-/* When gravity is compensated. This removes the ripple of the speed, and gravity's part of the load's peaks. */
+/* When to compensate gravity. Compensation removes the ripple of the speed, and gravity's part of the load's peaks. */
 typedef enum wh_compensation_when {
     WH_COMPENSATION_NEVER,
     WH_COMPENSATION_SLOW, /* only for set-points that are too slow without compensation */
@@ -82,8 +82,8 @@ typedef struct wh_rig_config {
     wh_compensation_when feeds;
     wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
-    wh_real tripped_max_s; /* longest time to rest after a trip */
-    wh_real rest_max_s;    /* longest time to rest with the motor off */
+    wh_real tripped_max_s; /* longest wait for the rotor to come to rest after a trip */
+    wh_real rest_max_s;    /* the same with the motor off, without a trip */
     /* If true, the motor brakes at a run's end and after `stop`. After a trip or the stop input it always coasts. */
     bool stop_brakes;
     /* A completed run coasts, and the free swing gives the sensors' positions; `stop` may brake. */
@@ -110,8 +110,8 @@ typedef struct wh_rig {
     bool decides; /* this step has a pulse that came after a suspect */
     /* Samples since the last step. With more than one, the step has less time for other work. */
     uint8_t loads;
-    bool rested; /* motor off, and rotor at rest or the longest wait over */
-    /* No pulses come, and, if pulses are unreliable, the longest wait is over. */
+    bool rested; /* after a trip: at_rest, or tripped_max_s is over */
+    /* After a trip: no pulses come. If the trip is for unreliable pulses, rest_max_s is also over. */
     bool at_rest;
     bool has_result; /* the last run has a result */
     wh_rig_end ended;
@@ -150,7 +150,7 @@ extern const wh_rig_config wh_rig_standard;
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* Returns wh_rig_stage(), or WH_RIG_STAGE_BRAKES while the motor is off and brakes, to be shown. */
+/* Returns the stage to be shown: wh_rig_stage(), or WH_RIG_STAGE_BRAKES while the motor is off and brakes. */
 #define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
@@ -180,7 +180,7 @@ void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
  * The observer's scene keeps its motor, so call this only once. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* Limit the speed between pulses to that without load at guard.supply_max_V; call it after a change of that. */
+/* Limit the speed between pulses to the motor's no-load speed at guard.supply_max_V. Call it if supply_max_V changes. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
 /* Start idle, motor off; the rotor may be moving. If `before`, which may be NULL, has a trip, start tripped. */

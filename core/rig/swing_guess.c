@@ -22,7 +22,7 @@ static wh_real sine_of_time(wh_real time) {
     return WH_R(1.0);
 }
 
-/* Returns sqrt(g) from the second shortest period of the last swings, or the only one. */
+/* Returns sqrt(g) from the second shortest period of the last swings, or from the shortest of one or two. */
 static wh_real guess_root(const wh_swing *swing) {
     wh_real shortest_s = WH_R(100.0);
     wh_real second_s = WH_R(100.0);

@@ -151,7 +151,7 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* The lag psi depends on the inertia: d psi = tan psi dE / E, with the energy E. */
+    /* The lag psi depends on the inertia: d psi = tan psi dE / E. */
     const wh_real lag_per_swing =
         angle->compensated ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;

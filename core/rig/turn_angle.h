@@ -10,9 +10,9 @@
  *     E = S g / (omega sqrt(I^2 omega^2 + c^2))      sin psi = c / sqrt(I^2 omega^2 + c^2)
  *
  * S is the sum of mass times radius, gamma the direction of gravity, c the slope of the motor's torque line plus the
- * bearings' drag, I the rotor's inertia. Without the ripple (E = 0) the force has errors of 2.6 % and 2.0 degrees at
- * 170 rpm. E, and thus I, is estimated from the quadrature ratio: the fraction of a turn's time before sensor 2's
- * pulse. The ratio does not show c, so c is configured.
+ * bearings' drag, I the rotor's inertia. If the ripple is neglected (E = 0), the force has errors of 2.6 % and 2.0
+ * degrees at 170 rpm. E, and thus I, is estimated from the quadrature ratio: the fraction of a turn's time before
+ * sensor 2's pulse. The ratio does not show c, so c is configured.
  *
  * Gravity compensation (gravity_compensation.h) leaves a part of gravity, of either sign, and reduces E to that part.
  * The quadrature ratio then gives the part, and I stays at its last estimate. The motor's voltage cannot go below 0, so
@@ -20,8 +20,8 @@
  * compensation is clipped, and the remaining torque is no sine.
  *
  * A carriage of mass M moves along theta = 0. The arms have the mass m. Their effective inertia is I - D sin^2 theta,
- * with D of at most S^2/(M + m). It is least when the arms are across the rail, so the arms speed up twice a turn. To
- * the first order theta has the further term
+ * with D of at most S^2/(M + m). The inertia is least when the arms are across the rail, so the arms speed up twice a
+ * turn. To the first order theta has the further term
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
@@ -72,7 +72,7 @@ typedef struct wh_turn_angle {
     wh_real twice_rad;   /* A, rad */
     wh_real second_sine; /* coefficients of sin 2u and cos 2u in theta */
     wh_real second_cosine;
-    /* Derivative of base_rad with respect to the quadrature ratio, with its effect on psi. */
+    /* Derivative of base_rad with respect to the quadrature ratio, including the change of psi. */
     wh_real base_per_ratio;
     wh_real base_per_lag; /* derivative with respect to psi, at a fixed ratio */
     /* Derivative of base_rad with respect to a ripple a quarter turn after E's, which the ratio cannot distinguish. */
