@@ -65,8 +65,8 @@ float wh_atan2(float y, float x) {
 
 float wh_atan(float x) { return wh_atan2(x, 1.0f); }
 
-/* Returns the root of size * 2^32, for size >= 2^30, by Newton's method from a straight line. Only the last step has
- * all digits. The relative error is at most 2^-30. */
+/* Returns the root of size * 2^32, for size >= 2^30, by Newton's method. The first guess is linear in size; only the
+ * last step computes all digits. The relative error is at most 2^-30. */
 static uint32_t root_of(uint32_t size) {
     const uint32_t line = wh_high(size, 43691U) + 23156U; /* (size/2^30 + 2.12)/3, times 2^15 */
     const uint32_t near = (line + size / line) >> 1;

@@ -1,4 +1,4 @@
-/* hash.h: a hash of a state's bits (FNV-1a, 64 bits). It takes words low byte first, so all machines get the same. */
+/* hash.h: a hash of a state's bits (FNV-1a, 64 bits). Words enter low byte first: the hash is the same everywhere. */
 #ifndef WH_HASH_H
 #define WH_HASH_H
 

@@ -8,7 +8,7 @@
  * - smooth entries: the work of each input, the loss of each damper (negative), the impulse of each generalized force.
  * - for each contact, its energy and its impulse along each coordinate.
  * - for each input in the energies, the work -dL/dt of its changes between steps.
- * - if the scene asks for it, the energy that stabilization has given back (stabilize.h).
+ * - if the scene asks for it, the energy that stabilization has added (stabilize.h).
  *
  * Powers and forces, including contact forces, are integrated with the weights of the method's own stages, so the
  * entries have the method's order. Impacts, captures and assignments are entered when they happen. Sums are
@@ -42,7 +42,7 @@ struct wh_ledger_form {
     uint8_t coordinates;    /* number of integrated coordinates */
     uint8_t angles;         /* number of coordinates stored as turn angles; they come first */
     uint8_t inputs;
-    bool stabilized; /* each step gives back part of the drift (stabilize.h) */
+    bool stabilized; /* each step corrects part of the energy's drift (stabilize.h) */
 };
 
 /* Index of the entry of contact k's energy. Those of its impulses follow, one for each coordinate. */
@@ -55,7 +55,7 @@ WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
     return (unsigned)form->entries - form->inputs - form->stabilized;
 }
 
-/* If form->stabilized: index of the entry of the energy given back. */
+/* If form->stabilized: index of the entry of the energy that stabilization has added. */
 WH_INLINE unsigned wh_ledger_of_stabilized(const wh_ledger_form *form) {
     return form->entries - 1U;
 }

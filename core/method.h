@@ -21,7 +21,7 @@
  *
  * So a method may have separate weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
  * .positions = b A; only such a method takes systems of first order. .positions and .rates share .parts, because the
- * sum for positions is a part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
+ * sum for rates is the sum for positions plus a rest. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
  * In Nystroem's methods, .places gives the position of stage i:
  *

@@ -122,8 +122,8 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
- * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds to the angle, which keeps all
- * its digits after many turns.
+ * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds to the angle: the angle keeps
+ * all its digits after many turns.
  *
  * The next step goes on like a run that starts from the corrected state. A coordinate beyond a stop goes back onto the
  * stop, every contact's mode is found again, and each hold keeps its present value. The corrected component loses its
@@ -138,7 +138,7 @@ wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned a
 
 /* Time of the state: state->steps * scene->step, for all times below 2^64 s. Only the fraction of a second is rounded,
  * once, to the nearest real, so float resolves a microsecond in a run of years. If the scene's step is not given as a
- * fraction, the result is wh_scene_time_s(), split. */
+ * fraction, the result is wh_scene_time_s() as seconds and fraction. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
 /* Time of the state as one real: steps * step_s. The relative error is at most 1.5 U plus that of step_s, with the unit

@@ -160,7 +160,7 @@ static void round_to_whole(uint8_t *byte) {
 }
 
 /* Copies the mantissa's bits into byte[BYTES], initially zero. Returns false if the number exceeds WHOLE_BYTES,
- * as a double may. Drops bits below 2^-160: only doubles below 2^-107 have them, far from a tie at 18 decimals. */
+ * as a double may. Drops bits below 2^-160: only doubles below 2^-107 have them, which round to 0 at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

@@ -9,7 +9,7 @@
 #include "multi_step.h"
 #include "step_end.h"
 
-/* Returns as wh_all_believable(). Without an FPU, a check of bits usually suffices, in a tenth of the time (AVR). */
+/* Returns as wh_all_believable(). Without an FPU, a check of bits mostly suffices: a tenth of the time (ATmega328P). */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
     /* the upper byte of 2^39: the sum of smaller numbers is below WH_ABSURD */

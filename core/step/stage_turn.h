@@ -48,7 +48,7 @@
 #endif
 
 /* 1 if a step computes its rotations before its first accelerations: a call for a large d then spills few registers.
- * But the rotations must survive the accelerations: 3 % more instructions in double with a PC's 16 registers. */
+ * But the rotations then occupy registers during the accelerations: 3 % more instructions in double on a PC. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
 /* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the phases. */
@@ -78,7 +78,7 @@ typedef struct wh_turning {
     /* Pairs at the begin, as sums of two parts. If `precise`, the second parts include the increments. */
     wh_sine_parts parts[WH_WAVES];
     wh_wave at[WH_WAVES]; /* the pairs at the begin, rotated by multiples of d */
-    /* if `precise`, the increment of the last rotation; otherwise the pair before `at` */
+    /* if `precise`, the increment of the last rotation; otherwise the pair before that rotation */
     wh_wave way[WH_WAVES];
     wh_real bend[WH_WAVES]; /* 2 (cos d - 1) if `precise`, otherwise 2 cos d */
     unsigned turns;         /* number of rotations done */
