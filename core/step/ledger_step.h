@@ -19,7 +19,7 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Returns a stage's weight in the method's quadrature. The loop avoids a table, even if `stage` is not constant. */
+/* Returns a stage's weight in the method's quadrature. The unrolled loop needs no table, even if `stage` varies. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];

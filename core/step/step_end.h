@@ -27,7 +27,7 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
 #endif
 }
 
-/* The macro gives the interpreter (host/engine/loss.inc) the round-off of turn angle i in a step of h, in phase units. */
+/* Gives the interpreter (host/engine/loss.inc) the round-off of turn angle i in a step of h seconds, in phase units. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif

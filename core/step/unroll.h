@@ -37,7 +37,7 @@
  * - moves a stage's computation below the checks of the next stage, where more values are live (up to 8 % more
  * instructions per step),
  * - loads, before each check, the index of the component that may fail (up to 3 %),
- * - and calls memcpy() for a loop over one or two values. */
+ * - packs pairs of values into vectors, and calls memcpy() for a loop over one or two values. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-sink", "no-if-conversion2", "no-tree-loop-distribute-patterns", \
                      "no-tree-slp-vectorize")
