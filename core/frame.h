@@ -53,7 +53,7 @@ uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count);
  * 0 if it does not fit, and then `bytes` is invalid. */
 unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room);
 
-/* Begin to read frames of up to `room` coded bytes without the final zero. `room` = WH_FRAME_BYTES(payload) is enough. */
+/* Begin to read frames of up to `room` coded bytes without the final zero: WH_FRAME_BYTES(payload) is enough. */
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room);
 
 /* Process the next byte. Returns true if it ends a good frame: *frame is then that frame, and its payload stays in the
