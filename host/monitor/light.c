@@ -37,7 +37,7 @@ const char *light_end(const char *from, const char *end) {
     return at != NULL ? at + 1 : NULL;
 }
 
-/* Drops carriage returns. Returns false if the text is too long. */
+/* Copies the text without carriage returns. Returns false if it is too long. */
 static bool keep_text(light *l, const char *from, const char *end) {
     l->length = 0;
     for (; from < end; from++) {

@@ -206,7 +206,7 @@ static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     f->pending_count = kept;
 }
 
-/* Applies an active fault, or its pending readings, to the readings at time_s. */
+/* Applies the fault to the readings at time_s if it is active. Adds its delayed readings that are due. */
 static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const fault_place at = fault_rows[f->kind].place;
     if (f->active && at == FAULT_EDGES) {

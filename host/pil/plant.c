@@ -14,7 +14,7 @@
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 
-/* rad is 1, and rad/s is 1/s. */
+/* Are the units equal, if rad counts as 1, and rad/s as 1/s? */
 static bool is_same_unit(const char *one, const char *other) {
     char both[2][BOUND_NAME];
     const char *const of[2] = {one, other};

@@ -155,7 +155,7 @@ bool plant_advance(plant *p, double until_ticks);
 /* Restarts the timer, and drops pending readings. */
 void plant_restart(plant *p);
 
-/* Moves the readings up to now to `readings`. */
+/* Moves the readings that are due from the plant's queues to `readings`. */
 void plant_read(plant *p, wh_readings *readings);
 
 #endif

@@ -58,7 +58,7 @@ static void add(cost_counts *c, cost_class class, double run, double code) {
 
 /* --- the lists ---------------------------------------------------------------------------------------*/
 
-/* The class of each operation; 0: COST_CLASS_MOVE. */
+/* The class of each operation; operations without an entry (0) are of COST_CLASS_MOVE. */
 static const cost_class classes[OPS] = {
     [OP_ADD] = COST_CLASS_SUM,       [OP_SUB] = COST_CLASS_SUM,
     [OP_MUL] = COST_CLASS_PRODUCT,   [OP_DIV] = COST_CLASS_QUOTIENT,

@@ -65,7 +65,7 @@ extern const int cost_board_count;
 const cost_board *cost_board_named(const char *name); /* NULL: unknown */
 
 /* === the operations of a step, by class ======================================================= */
-/* Counts of the operations of a step. Those of the stages come from the method's tableau (core/method.h). */
+/* Counts of a step's operations. The method's tableau (core/method.h) gives the operations of its stages. */
 
 /* X(id, meaning): a class of operations. */
 #define COST_CLASS_ROWS(X) \

@@ -132,8 +132,8 @@ bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors
                    point_notes *notes);
 
 /* Runs the point and writes its row, with the line's end. If the run fails, or a measure, an energy or a contact's
- * expression is not finite, the columns stay empty. Then the result is false and one line on `reason` gives the cause.
- * After an interrupt the row is invalid. */
+ * expression is not finite, only the swept columns are filled. Then the result is false, and one line on `reason` gives
+ * the cause. After an interrupt the row is invalid. */
 bool sweep_point(const sweep *s, uint64_t point, FILE *row, FILE *reason, point_notes *notes);
 
 #endif

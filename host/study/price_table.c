@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* Finer steps are not tried after PATIENCE errors in succession that exceed this part of the least error so far. */
+/* Finer steps are not tried after PATIENCE successive errors above FALLS times the least error so far. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -390,7 +390,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* Marks rows of the front, with errors that fall at least by `factor` from one to the next. Returns their number. */
+/* Marks rows of the front whose error times `factor` is at most the last marked row's error. Returns their number. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;

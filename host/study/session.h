@@ -23,7 +23,7 @@ typedef struct resumable_csv {
     uint64_t rows;   /* number of existing rows */
     uint64_t failed; /* number of existing rows with empty measures */
     char *beside;    /* FILE.sweep */
-    char *notes;     /* lines "noted: WORD" of the file; "" if there are none */
+    char *notes;     /* lines "noted: WORD" of FILE.sweep; "" if there are none */
 } resumable_csv;
 
 typedef struct resumable_csv_settings {

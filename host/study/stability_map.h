@@ -63,7 +63,7 @@ void map_free(stability_map *m);
 uint64_t map_count(const stability_map *m, map_verdict verdict);
 /* The grid's point for value `at` of the axis m->along, in rising order, and value `row` of the other axis. */
 uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
-/* These values of the two axes, SI. */
+/* Value `at` of the axis m->along, and value `row` of the other axis, SI. */
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 

@@ -101,7 +101,7 @@ typedef struct trials {
     bool stopped;
 } trials;
 
-/* The results of one setting at one step. */
+/* The results of one setting with one step length. */
 typedef struct trial_result {
     bool ran;     /* false: stopped, or there is no image */
     bool usable;  /* at all points the run reached its end, with an error below the largest value */
@@ -118,7 +118,7 @@ bool trial_begin(trials *t, const trial_request *w);
 void trial_end(trials *t);
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
-/* Estimated operations, without those of events. */
+/* Estimated operations of trial_run(), without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
 /* The setting's cost at the most expensive point. *own: false if setting_is_own() is, or if the scene refuses the
  * setting, perhaps only with this step (setting_price_varies()). In fixed point this takes as long as a run. */

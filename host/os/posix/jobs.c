@@ -19,7 +19,7 @@
 #define PAUSE_MS 50
 #define ASK_US 200000
 
-/* The header before row and reason. */
+/* The head of a worker's answer; the row and the reason follow. */
 typedef struct answer {
     uint64_t point;
     uint64_t row_length;
