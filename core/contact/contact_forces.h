@@ -6,8 +6,8 @@
 
 /* Distributes the load over all contacts in member[], if a force exceeds its limit or a redundant contact contradicts
  * the others. The redundant contacts are `repeats` (bits of indices in member[]); their forces are zero so far.
- * work->force gets the new forces; a contact that gives way gets its limit plus the excess. accel[] changes only after
- * a contradiction. */
+ * work->force gets the new forces; a contact that gives way gets its limit plus the excess over it. accel[] changes
+ * only after a contradiction. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {

@@ -139,7 +139,7 @@ WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_con
     return wh_contact_calm(of, &a->margins) && (of->held == 0 || w->undefined < 0);
 }
 
-/* After a failed trial step of length h: looks along the rates for a friction or hold that becomes undefined. */
+/* After a failed trial step of length h: extrapolates `from` to find a friction or hold that becomes undefined. */
 WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;

@@ -23,7 +23,7 @@
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda, from the last evaluation of the accelerations */
-    /* acceleration along each constraining contact that its force must produce; index as in wh_contact_members() */
+    /* acceleration along a constraining contact, to be produced by its force; index as in wh_contact_members() */
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real rough[WH_CONTACTS_MAX]; /* sum of |terms| of the acceleration along each contact */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
@@ -64,8 +64,8 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* The scene's contacts in a function that is not inlined. In code for size the compiler may pass no constants into
- * functions, and gcc then warns of loops without a bound. So such code refers to the constant itself. */
+/* The scene's contacts in a function that is not inlined. A compiler that optimizes for size may not propagate
+ * constants into it, and gcc then warns of loops without a bound. So this macro refers to the constant itself. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else

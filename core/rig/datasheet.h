@@ -8,12 +8,12 @@
 /* Time stamps of the rig are counts of a 1 MHz timer, 32 bits, wrapping. */
 #define WH_RIG_TICKS_PER_S 1000000U
 
-/* Returns the seconds from a time stamp to a later one, for less than 71.6 minutes. */
+/* Returns the seconds from a time stamp to a later one. Valid for less than 71.6 minutes. */
 WH_SHARED wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Returns the seconds from one time stamp to another, negative if `to` is earlier, for less than 35.8 minutes. */
+/* Returns the seconds from one time stamp to another, negative if `to` is earlier. Valid below 35.8 minutes. */
 WH_SHARED wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }

@@ -88,12 +88,12 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-/* The unknowns are those of the rotor, and then the positions of both sensors. */
+/* Index of sensor 1's position in the unknowns: both positions follow those of the rotor. */
 #define WH_SWING_PLACE WH_FREE_CAUSES
 
 #define WH_SWING_TURNING 6U /* maximum number of pulses stored from the turns before the swings */
 #define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
-#define WH_SWING_LAST 10U   /* number of stored times of sensor 1 */
+#define WH_SWING_LAST 10U   /* number of stored pulse times of sensor 1 */
 
 /* Pieces of the work, one per control step: integrate up to a pulse and use it, factor and solve the equations, begin
  * another pass, make another guess, finish. */

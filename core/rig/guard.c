@@ -34,7 +34,7 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 
 /* Pulses of one sensor closer than at 1,000 rpm are no turns: 36 V give at most 900 rpm. */
 #define BOUNCE_TICKS 60000U
-/* A turn is slower if it takes this many times as long as the one before. In a swing only the last two intervals are. */
+/* A turn is slower if it takes this many times as long as the last one. In a swing only the last two intervals are. */
 #define LONGER WH_R(1.02)
 #define FASTER WH_R(1.01) /* for a trip: least gain of speed over successive faster turns */
 #define ALTERNATE_PAIR 4U /* least wh_off.alternate that shows two turns of a sensor */

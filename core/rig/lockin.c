@@ -7,7 +7,7 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* Limits of a turn that counts: largest gap between two nodes, in sample periods; least number of samples per outlier. */
+/* Limits of a turn that counts: largest gap between nodes, in sample periods; least number of samples per outlier. */
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 

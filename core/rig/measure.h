@@ -38,7 +38,7 @@ typedef struct wh_tare {
     wh_real falls_N;  /* the same with falling weights */
     wh_real before_N; /* rises_N of the previous block */
     uint32_t means;   /* number of triangular means */
-    wh_real slow_N;   /* mean of the triangular means, and sum of squared deviations */
+    wh_real slow_N;   /* mean of the triangular means; slow_N2: sum of squared deviations from it */
     wh_real slow_N2;
 } wh_tare;
 

@@ -29,7 +29,7 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-/* For this time after the loop has closed, the measured speed may jump, because the first turn is of the spin-up. */
+/* For this time after the loop has closed, the measured speed may jump, because the first turn is from the spin-up. */
 #define JUMP_S WH_R(0.5)
 
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {

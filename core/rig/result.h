@@ -52,7 +52,7 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* force / force on a fixed mount: 1, or 1/(1 + ratio) on a carriage */
+    wh_real mount_factor; /* cell force divided by that on a fixed mount: 1, or M/(M + m) (rig.h) */
     /* Calibration uncertainties at 95 %: a fraction of the force, and an angle. 0: uncalibrated. */
     wh_real amplitude_floor;
     wh_real phase_floor_rad;

@@ -163,7 +163,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Sensor 1 is on the loading-train axis, sensor 2 a quarter turn later. Their pulses come lead_rad earlier. */
+/* Sensor 1 is on the loading-train axis, sensor 2 a quarter turn later. The pulses come lead_rad before the sensors. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
 /* The torque line of a brushed motor; all numbers are > 0. */
@@ -180,7 +180,7 @@ void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
  * The observer's scene keeps its motor, so call this only once. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* Limit the speed between pulses to the motor's no-load speed at guard.supply_max_V. Call it if supply_max_V changes. */
+/* Limit the speed between pulses to the motor's no-load speed at guard.supply_max_V. Call it after that changes. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
 /* Start idle, motor off; the rotor may be moving. If `before`, which may be NULL, has a trip, start tripped. */

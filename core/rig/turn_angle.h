@@ -62,7 +62,7 @@ typedef struct wh_turn_angle {
     wh_real drive_V;        /* drive's voltage without the compensation, set by the caller */
     wh_real part;           /* uncompensated part of gravity; 1 without compensation */
     uint32_t ratios;        /* turns in the estimate of the inertia or of `part` */
-    wh_real whole_rad;      /* E if gravity is not compensated */
+    wh_real whole_rad;      /* E without gravity compensation */
     /* Part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0. */
     wh_real cut;
     wh_real ripple_rad; /* E */
@@ -74,7 +74,7 @@ typedef struct wh_turn_angle {
     wh_real second_cosine;
     /* Derivative of base_rad with respect to the quadrature ratio, including the change of psi. */
     wh_real base_per_ratio;
-    wh_real base_per_lag; /* derivative with respect to psi, at a fixed ratio */
+    wh_real base_per_lag; /* derivative of base_rad with respect to psi, at a fixed ratio */
     /* Derivative of base_rad with respect to a ripple a quarter turn after E's, which the ratio cannot distinguish. */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
