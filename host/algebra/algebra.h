@@ -67,7 +67,7 @@ bool poly_is_place(const poly *p);
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    /* order of entry, in which equal products are added */
+    /* number in the order of entry; equal products are added in this order */
     size_t turn;
 } sum_item;
 

@@ -321,7 +321,7 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    /* 2.0, because the slope of (x - b)^3, which has (x - b)^2, must stay a power, too */
+    /* 2.0 keeps squares, too: the slope of (x - b)^3 contains (x - b)^2, which must stay a power */
     substitution s = {replace, context, 2.0, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);

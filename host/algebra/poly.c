@@ -756,8 +756,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-/* Returns the divisor that makes sums equal if they differ only by a factor. For a positive whole power it is not the
- * constant term, so that x - b has the same form with a number for b. */
+/* Returns a coefficient of p: sums that differ only by a factor are equal after division by it. In a positive whole
+ * power it is not the constant term, so that x - b has one form for a symbol b and for a number b. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
     return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
@@ -785,7 +785,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* In a fractional power the sign stays inside. */
+    /* In a fractional power, the sign of `size` stays inside. */
     const double size = size_of_sum(base, exponent);
     const double outside = exponent_is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);

@@ -44,7 +44,7 @@ bool poly_may_contain(const poly *p, const symbol *sym, int primes);
 /* Exact test: does p contain the symbol with `primes` primes? For primes = -1, any number of primes counts. */
 bool poly_contains(const poly *p, const symbol *sym, int primes);
 
-/* Determinant, by cofactors, of the rows and columns in two bit sets of the n by n matrix m, n <= 32. Only for a few
+/* Determinant, by cofactors, of a submatrix of m (n by n, n <= 32). `rows` and `columns` are bit sets. Only for a few
  * rows. */
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns);

@@ -105,7 +105,7 @@ void *arena_push(struct arena *arena, const void *array, int *count, const void 
 
 /* === the heap ================================================================================= */
 
-/* If `count` is 0, the size of one element: realloc() with size 0 may free the array. */
+/* Returns count * size, or, if `count` is 0, the size of one element: realloc() with size 0 may free the array. */
 static size_t bytes_of(int64_t count, size_t size) {
     size_t bytes;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &bytes)) {

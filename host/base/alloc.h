@@ -44,8 +44,8 @@ char *arena_copy(struct arena *arena, const char *text, size_t length);
 char *arena_words(struct arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Returns `array` with memory for one more element than its `count`, or a copy of twice the size. The capacity is the
- * smallest power of two that is at least `count`. */
+/* Returns `array`, or a copy with twice the capacity, so that it has memory for one element more than `count`. The
+ * capacity must be the smallest power of two that is at least `count`. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
 /* Appends a copy of `element`, and adds one to *count. Returns the array, which may have moved. */

@@ -88,8 +88,8 @@ int diags_count(const diags *all) { return all->reported; }
 
 size_t diags_calls(const diags *all) { return all->calls; }
 
-/* Copies the source line around the place, one column per character. Invalid bytes and control characters become
- * "?". */
+/* Copies the source line around the place, one column per character. A tab becomes a space; invalid bytes and other
+ * control characters become "?". */
 static void copy_line(entry *made, place at) {
     const char *text = at.source->text;
     const size_t length = at.source->length;

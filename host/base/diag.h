@@ -7,7 +7,7 @@
 
 #define DIAG_MAX 20 /* largest number of errors printed; if there were more, a last line says so */
 
-/* A source text, and a place in it. Lines and columns (characters) count from 1. Messages need no `text`. */
+/* A source text, and a place in it. Lines and columns (characters) count from 1. Without `text`, no line is shown. */
 typedef struct source {
     const char *file;
     const char *text;

@@ -19,8 +19,8 @@ enum { EXIT_ROWS(EXIT_VALUE) };
 enum { EXITS = 0 EXIT_ROWS(EXIT_ONE) };
 #undef EXIT_ONE
 
-/* Prints a help text's list of exit statuses, a line for each row. why[EXITS]: the row's meaning for this command; "":
- * none; NULL: no line. Further lines of a text must begin with seven spaces. */
+/* Prints a help text's list of exit statuses, a line for each row. why[EXITS]: the row's reason in this command; "": no
+ * reason; NULL: no line. Further lines of a text must begin with seven spaces. */
 void exit_describe(FILE *out, const char *const *why);
 
 #endif

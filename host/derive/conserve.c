@@ -156,9 +156,9 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
 
 typedef struct momentum_law {
     double momentum;    /* constant value of the momentum, SI */
-    double start;       /* G at the start */
+    double start;       /* value of G(q) (conserve.h) at the start */
     const poly **mass;  /* [equations->count] coefficients of the rates */
-    const poly *others; /* the terms of G without conserved coordinates */
+    const poly *others; /* the terms of G(q) without conserved coordinates */
 } momentum_law;
 
 /* Solves sum_l m_kl x_l = right_k for x by Cramer's rule, over the conserved coordinates l. */
@@ -222,7 +222,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* a coordinate on which a force depends must be integrated: `closed` needs the time, which a step does not know */
+    /* if a force depends on the coordinate, `closed` is false: G(q) = G(q0) + p t, and a step does not know t */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (energy_momentum_is_linear(e, i)) {
         return true;
@@ -232,7 +232,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     return false;
 }
 
-/* Finds G for each law. If one law has no G, the coordinates are integrated. */
+/* Finds G(q) for each law. If one law has no G, all conserved coordinates are integrated (`closed` becomes false). */
 static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
     algebra *a = e->algebra;
     for (int k = 0; k < c->count && c->closed; k++) {

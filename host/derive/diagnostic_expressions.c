@@ -9,7 +9,7 @@
 
 #include "host/base/alloc.h"
 
-/* The nodes of the polys or atoms entered so far: node[id] is the node plus one, or 0. */
+/* Nodes of polys or of atoms: node[id] is the node's number plus one, or 0 if there is none yet. */
 typedef struct known {
     int *node;
     unsigned room;
@@ -97,7 +97,7 @@ static int of_expr(maker *k, const expr *tree) {
     return node;
 }
 
-/* Returns the place of this id in node[], which is valid until the next call. */
+/* Returns a pointer to node[id], and enlarges the array if needed. The pointer is valid until the next call. */
 static int *node_of(known *of, unsigned id) {
     if (id >= of->room) {
         of->node = alloc_more(of->node, 2 * (int64_t)id + 1, sizeof *of->node);
@@ -194,7 +194,7 @@ static void ask_value(maker *k, place where, const expr *tree, const char *what)
     }
 }
 
-/* Enters the derivatives by all coordinates (primes 0) or by all rates (primes 1). */
+/* Enters the derivatives of `tree` by all coordinates (primes 0) or rates (primes 1), if they may be undefined. */
 static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
     const equations *e = k->equations;
     const poly *value = poly_from_expr(e->algebra, tree);

@@ -5,7 +5,7 @@
 #include "host/derive/equations.h"
 #include "image_parts.h"
 
-/* Enters the expressions and the contacts' conditions into the image, which must have its inputs and contacts. */
+/* Enters the expressions and the contacts' conditions into the image. Its inputs and contacts must already exist. */
 void diagnostics_make(image_draft *d, const equations *e);
 
 #endif

@@ -109,7 +109,7 @@ static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
 contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
-    const int most = 2 * m->contact_count + own; /* room for a crossing for each friction */
+    const int most = 2 * m->contact_count + own; /* each friction may get a crossing */
     contact_laws *laws = alloc(1, sizeof *laws);
     laws->law = alloc(most, sizeof *laws->law);
     for (int k = 0; k < CONTACT_KINDS; k++) {

@@ -18,7 +18,7 @@ typedef struct contact_law {
     const contact_statement *from;
     const poly *value; /* stop: gap; hold: condition; friction: rate; crossing: left - right */
     const poly *speed; /* J q': rate of the gap or of the hold's expression; else zero */
-    /* stop: restitution; friction: mu_static * max(N, 0); hold that is not straight: value */
+    /* stop: restitution; friction: mu_static * max(N, 0); hold with `straight` false: its expression; else zero */
     const poly *first;
     const poly *second; /* friction: mu_kinetic * max(N, 0) */
     const poly *bias;   /* J' q' */
@@ -76,9 +76,8 @@ typedef struct equations {
     int count;         /* number of unknowns, and of equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
-    double
-        /* relative error of the accelerations from the rounding of mass[], at the best of the tried states */
-        mass_blur;
+    /* relative error of the accelerations from the rounding of mass[], at the tried state where it is smallest */
+    double mass_blur;
     folding folding;       /* constant folding of the file's numbers */
     const poly **velocity; /* [count] centrifugal and Coriolis terms; zero for a system */
     /* [count] dV/dq; for a system: left minus right side, without the highest derivatives */
@@ -87,7 +86,7 @@ typedef struct equations {
     /* Energies and results derived from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;
-    statement_force *force; /* [forces] by statement: the parts of applied[], and their power */
+    statement_force *force; /* [forces] the forces of each statement; applied[] is their sum */
     int forces;
     const poly **momentum;  /* [count] dL/dq' */
     bool *conserved;        /* [count] momentum[i] is constant: no force, no potential, no loss */
@@ -97,7 +96,7 @@ typedef struct equations {
 
 void equations_free(equations *e);
 
-/* Returns expression i of contact k: its law's, then its row's or those that it sets; NULL after the last. */
+/* Returns expression i of contact k: value, speed, first, second, bias, then row[] or a crossing's set[]; then NULL. */
 const poly *contact_law_poly(const equations *e, int k, int i);
 
 place equations_kinetic_place(const instance *inst);

@@ -40,10 +40,10 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Largest number of parts that is_written() examines. Each level of lets may double them, as in p*p with p = q*q. */
+/* The most subexpressions that is_written() examines. Each level of lets may double them, as in p*p with p = q*q. */
 enum { MOST_PARTS = 1000 };
 
-/* Is the expression a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
+/* Is the expression made of literal numbers, without sums and calls? Otherwise a value near zero may be round-off. */
 static bool is_written(const instance *inst, const expr *e, int *parts) {
     if (++*parts > MOST_PARTS) {
         return false;
@@ -153,7 +153,7 @@ static const char *primed_name(image_draft *d, const char *name, int primes) {
     return image_text(d, text);
 }
 
-/* Returns the range of a symbol's derivative. It may be undeclared. */
+/* Returns the range of a symbol's derivative with `primes` primes. The range may be undeclared. */
 static image_range range_of(image_draft *d, const instance *inst, const char *name, place at,
                             const symbol *s, int primes) {
     image_range made = {.name = name, .at = at};
@@ -254,8 +254,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     }
     image_draft *d = &p->draft;
     image *im = d->made;
-    /* Only lists of compensated steps are scaled, with three exceptions: variants are not run in float, contacts use
-     * the same mass matrix, and tables are rounded separately. */
+    /* The step's list is scaled if the step is compensated. Exceptions: variants, which never run in float; contacts,
+     * which use the same mass matrix; and tables, which are rounded separately. */
     if (settings->compensated && im->contacts == 0 && settings->tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&im->list[IMAGE_STEP], op_list_scaling_price(im->list[IMAGE_STEP]));
@@ -312,7 +312,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding loses more than this (relative), an image to run gets variants, which show the effect. */
+/* If folding loses more than this, relative to an addend or a result, an image to run or to check gets variants. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");

@@ -5,8 +5,8 @@
 #include "host/derive/equations.h"
 #include "host/image/image.h"
 
-/* An image to run also has the expressions that may be undefined as written, for messages (host/check/nonfinite.h).
- * One to check also has the image of its finer run (image.finer). */
+/* An image to run also has the expressions that may be undefined, as the file writes them, for messages
+ * (host/check/nonfinite.h). An image to check also has the image of its finer run (image.finer). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
 /* Returns an image with the lists of `base`, and the starts, inputs, step and end of `inst`, an instance of the same

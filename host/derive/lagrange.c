@@ -11,10 +11,10 @@
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
-#define PASSES 16 /* over rows and over columns; each halves the error of the scales' logarithms */
-#define NO_PIVOT 4e-14 /* relative to the scaled size: round-off, even of exact entries */
+#define PASSES 16 /* rounds of scale_general(); each halves the error of the scales' logarithms */
+#define NO_PIVOT 4e-14 /* a smaller pivot of a scaled matrix counts as zero: it is round-off */
 
-/* The power of two nearest to 1/sqrt(x); 1 for zero. */
+/* A power of two within a factor of two of 1/sqrt(x); 1 if x is not positive and finite. */
 static double scale_for(double x) {
     int exponent;
     if (!(x > 0.0) || !isfinite(x)) {
@@ -56,7 +56,7 @@ static double largest_of(const double *m, int n, line of) {
     return largest;
 }
 
-/* Scales all rows, then all columns, in each of PASSES rounds: divides by the root of the largest entry. */
+/* Divides each row, then each column, by about the root of its largest entry. Does this PASSES times. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -104,7 +104,7 @@ bool rank_is_positive(double *m, int n) {
 #define TRIES 24 /* generic states at which the mass matrix is tested */
 /* The last tried state is the start of the run, because some mass matrices are defined only there. */
 #define TRY_START TRIES
-#define ENTRY_ROUNDING 4e-16 /* of an entry, relative to the sum of its terms' sizes */
+#define ENTRY_ROUNDING 4e-16 /* round-off of an entry, relative to the sum of its terms' sizes */
 #define MASS_BLUR_FINE \
     1e-10 /* if mass_blur is below this, the search for a state with a smaller one ends */
 
@@ -138,7 +138,7 @@ static bool mass_at(const equations *e, int try, double *m, double *error) {
     return finite;
 }
 
-/* Returns the first row of the mass matrix that depends on those above, at the first try with finite values, or -1. */
+/* Returns the mass matrix's first row that depends on the rows above it, at the first try with finite values, or -1. */
 static int dependent_row(const equations *e) {
     const int n = e->count;
     double *m = room_for(n);
@@ -226,7 +226,7 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* Returns the term of the kinetic energy that is negative at the most states, *most; NULL if none ever is. */
+/* Returns the term of T that is negative at the most tried states (*most: their number); NULL if none ever is. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -289,7 +289,7 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
-/* Constants vanish from the equations, but are checked, too: a 1/0 in one is a mistake of the user. */
+/* Constants in the energies vanish from the equations, but are checked, too: a 1/0 in one is a mistake of the user. */
 static bool energies_finite(const equations *e, generic_state *state) {
     return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
@@ -330,7 +330,7 @@ static solvability solvability_at(const equations *e, int try, double *m, double
         return SINGULAR;
     }
     *blur = blur_of(m, error, n);
-    /* Eliminating a mechanism needs a positive definite matrix. A system's equations may have any order and sign. */
+    /* Elimination needs a mechanism's matrix to be positive definite. A system's rows may have any order and sign. */
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 

@@ -17,21 +17,21 @@ typedef struct layout {
     const equations *equations;
     const conservation *conserved;
     wh_form form;
-    int coordinates;  /* integrated coordinates, angles included (second order) */
+    int coordinates;  /* second order: integrated coordinates, angles included */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
     int inputs;       /* of the mechanism and of the active effects */
     int *input;       /* [inputs] number of each input in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
-    /* [unknown] number of the coordinate in the scene's order, or -1; for scenes of second order only */
+    /* [unknown] the coordinate's number in the scene, or -1; for scenes of second order only */
     int *place;
     int *angle_number; /* [unknown] turn angle, or -1 */
     int *real_number;  /* [unknown * order_room + primes] real component, or -1 */
     int order_room;
     /* while a list is entered: the operation of each unknown's highest derivative; else NULL */
     const int *highest;
-    /* while a list with recorded outputs (SYM_RECORD, the inputs of measures) is entered; else NULL */
+    /* while a list is entered in which recorded outputs (SYM_RECORD) may occur: the list's lowering; else NULL */
     lowering *recording;
 } layout;
 

@@ -12,7 +12,7 @@
 
 static bool whole_in_angle(const poly *angle, const symbol *sym);
 
-/* Does `sym` occur in this product only inside sines and cosines, or, if `tangents` is true, inside tangents? */
+/* Does `sym` occur in this product only inside sines and cosines? If `tangents`, tangents are allowed, too. */
 static bool is_in_waves(const mono *m, const symbol *sym, bool tangents) {
     for (int k = 0; k < m->count; k++) {
         const atom *x = m->factors[k].atom;
@@ -59,11 +59,11 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
  * zero, and the products keep the digits that the sum loses by cancellation. At x = pi/2 the same is true of s^n. */
 
 #define SAME_PIECE 1e-13 /* relative difference of coefficients that come from one number */
-#define CANCELLED 1e-14  /* relative to the addends, as in host/algebra */
+#define CANCELLED 1e-14  /* a sum below this, relative to its addends, counts as zero */
 #define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
 #define INDICES (MULTIPLE_MAX + 1)
-/* If the products exceed the terms of the original sum by more than this factor at some angle, more digits are lost
- * there than gained near the zero, and the sum is not rewritten. */
+/* If the largest values of the products add up to more than this times the sum of |c_k|, the sum is not rewritten.
+ * Otherwise it could lose more digits at other angles than it gains near the zero. */
 #define GROWTH_MAX 8.0
 
 /* Compares by member, because padding bytes between a 32-bit pointer and a double are undefined. */
@@ -282,8 +282,8 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 
 /* === which sines are evaluated ================================================================ */
 /* As few sines and cosines as possible are evaluated: an evaluated pair costs some thirty instructions, sin(a + b) from
- * known pairs at most six. So the angles are taken in order of size, and a sum, a difference or a double of earlier
- * angles is computed from their pairs. solve.c also tries other angles as the first. */
+ * known pairs at most six. So the angles are taken from the smallest to the largest, and a sum, a difference or a
+ * double of earlier angles is computed from their pairs. solve.c also tries to begin with other angles. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -301,7 +301,7 @@ struct wave {
     int cosine;
 };
 
-#define PARTS_MAX 96 /* the smallest known angles, which are tried as parts of another angle */
+#define PARTS_MAX 96 /* number of smallest known angles that are tried as parts of another */
 #define BETWEEN_MAX 32
 
 static int find(const lowering *l, const poly *angle) {
@@ -354,8 +354,8 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* May this wave be part of the angle's rule? Not if it has more nested sines, because the angle's own sine could be
- * among them, and the recursion would not end. */
+/* May this wave be part of the rule for `angle`? Not if it has more nested sines than `angle`: the sine of `angle`
+ * could be among them, and the recursion would not end. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -595,7 +595,7 @@ void lower_done(lowering *l) {
     l->wave_count = l->uses_room = 0;
 }
 
-/* Larger whole exponents are not expanded to products, here or in op_list_power(). An int would truncate them. */
+/* A power with a larger whole exponent, which an int may not hold, is one operation, not products (op_list_power()). */
 #define EXPONENT_MAX 64.0
 
 void lower_multiply(lowering *l, node_product *p, int node, int exponent) {
@@ -625,7 +625,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a tangent of turn angles is sine / cosine; other tangents are called, because a phase resolves only 1.5e-9 rad */
+    /* a tangent of turn angles is sine / cosine; others are calls of tan(): a phase resolves only 1.5e-9 rad */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));

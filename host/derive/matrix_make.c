@@ -22,7 +22,7 @@ static int column_of(const image *im, const op *o) {
     if (o->code == OP_LINEAR) {
         return im->angles + o->a;
     }
-    if (o->code == OP_RATE) { /* rates follow all positions, angles included */
+    if (o->code == OP_RATE) { /* the columns of rates follow those of all positions */
         return im->coordinates + o->a;
     }
     return affine_states(im) + o->a;
@@ -246,7 +246,7 @@ static double norm(const double_double *a, int states, int columns) {
     return most;
 }
 
-/* The sum of the absolute values in row i of A (`row`), or in column i, without the diagonal. */
+/* The sum of the absolute values in row i of A, or in column i if `row` is false, without the diagonal. */
 static double off_diagonal(const double_double *a, int i, bool row, int states, int columns) {
     double sum = 0.0;
     for (int j = 0; j < states; j++) {
@@ -415,8 +415,8 @@ static double rest(double_double entry) {
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* Enters the mean rate (in second order nearly the rate) of turn angle i over a step of length h, from its change
- * row[]. */
+/* Enters the mean rate of turn angle i over a step of length h: its change row[], divided by h. In second order, the
+ * coefficient of the angle's own rate is near 1. */
 static int enter_angle(const image *im, op_list *t, double_double *row, int i, double_double h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);
@@ -465,7 +465,7 @@ static void keep_numbers(image_draft *d, const double_double *change) {
     }
 }
 
-/* On entry, change[] has the rates. */
+/* On entry, change[] has the result of affine_rates(). */
 static bool make(image_draft *d, double_double *change, diags *errors) {
     image *im = d->made;
     const int states = affine_states(im);

@@ -105,7 +105,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n; i++) { /* a driven coordinate moves the contact but is not pushed */
+        for (int i = 0; i < n; i++) { /* J has driven coordinates, too: they move the contact */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
@@ -129,7 +129,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     return t;
 }
 
-/* The scene's number of the only coordinate with an entry in the row, if that entry is a number; else -1. */
+/* If the row's only nonzero entry is a number, returns its coordinate's number in the scene; otherwise -1. */
 static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -216,7 +216,7 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
     return true;
 }
 
-/* With a 1/0 from parameter values, the side of a contact would be undefined. */
+/* With a 1/0 from parameter values, a contact's gap or condition would be undefined. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, a root or logarithm of a negative number, or too large values";
@@ -325,7 +325,7 @@ static void order_accounts(image_ledger *l, const layout *map) {
     }
 }
 
-/* Adds the continuous entries, between events. */
+/* Adds the entries that change continuously between events. */
 static void smooth_entries(entries *to) {
     const equations *e = to->map->equations;
     algebra *a = e->algebra;
@@ -410,7 +410,7 @@ static bool make_ledger(program *p, diags *errors) {
     if (l->kept) {
         im->list[IMAGE_POWERS] = enter_ready(map, to.power, l->smooth);
         im->list[IMAGE_LEVELS] = make_levels(l, p->integral, map);
-        /* an angle that is only inside sines in the equations may occur elsewhere in an entry's rate */
+        /* in the rates of entries, an angle may also occur outside sines and cosines */
         l->turned = op_list_reads_turns(im->list[IMAGE_POWERS]);
     } else {
         diag_error(errors, e->instance->mechanism->at, "leave the ledger out: --without ledger",
@@ -531,7 +531,7 @@ static op_list *make_step(layout *map, const linear_system *s) {
     return t;
 }
 
-/* Makes a list that solves for the highest derivatives, its first results if `keep`, and then computes `wanted`. */
+/* Makes a list that computes `wanted` from the highest derivatives. If `keep`, these are the list's first results. */
 static op_list *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
                               int count, bool keep) {
     const equations *e = map->equations;
@@ -652,7 +652,7 @@ static bool lists_finite(const image *im, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* Does the step use turn angles only as phases? If not, a factor of an angle became too large in the solution. */
+/* Does the step use turn angles only as phases? If not, the solution multiplied an angle by too large a factor. */
 static bool steps_need_no_turns(const image *im, const equations *e, diags *errors) {
     const op_list *const lists[] = {im->list[IMAGE_STEP], im->list[IMAGE_SIGNALS],
                                     im->list[IMAGE_FORCES], im->list[IMAGE_SETS]};
@@ -667,7 +667,7 @@ static bool steps_need_no_turns(const image *im, const equations *e, diags *erro
     return true;
 }
 
-/* Makes the ledger that the instance, a stabilized step or, if possible, the balance of a run with contacts needs. */
+/* Makes the ledger that the instance or a stabilized step needs. A balance with contacts gets one, too, if possible. */
 static bool make_ledger_asked(program *p, diags *errors) {
     image *im = p->draft.made;
     const equations *e = p->layout.equations;

@@ -1,7 +1,7 @@
 /* solve.c: the solution for the highest derivatives in the arrangement with the least op_list_weight(). Arrangements
  * differ in the scale of the equations, the order of elimination, the first evaluated sine, and the symbolic
- * elimination. The last removes coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The
- * remaining equations return to normal form and may shrink. Cramer's rule solves the last ones with one division. */
+ * elimination. Symbolic elimination removes coordinates with a constant diagonal (a carriage's total mass, a body on a
+ * hinge). The other equations return to normal form and may shrink. Cramer's rule solves the last with one division. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -110,7 +110,7 @@ static double generic(void *context, const symbol *s, int primes) {
     return equations_generic(0, s, primes);
 }
 
-/* Returns the values of p[count] at a generic state, where a pivot that is zero by identity shows. */
+/* Returns the values of p[count] at a generic state: zero there means zero by identity. */
 static double *sample(const poly *const *p, int count) {
     double *value = alloc(count, sizeof *value);
     for (int i = 0; i < count; i++) {

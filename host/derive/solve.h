@@ -15,10 +15,10 @@ typedef struct linear_system {
     const symbol *const *unknown; /* [n] */
     const bool *turning; /* [n] true: the unknown is an angle, whose row gets no scale of its own */
     const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
-    /* true: unwanted solutions need not be correct, which allows more arrangements; false with contacts, which use the
-     * same matrix, so that the bits of their steps do not change */
+    /* true: only wanted solutions must be correct, which allows more arrangements. false with contacts: they use the
+     * same matrix, so a new arrangement would change the bits of their steps. */
     bool sparing;
-    /* true: no hinge is eliminated (solve.c), which multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
+    /* true: no hinge is eliminated (solve.c), because that multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
     bool precise;
 } linear_system;
 

@@ -12,7 +12,7 @@
 
 /* === the null space =========================================================================== */
 
-/* Conditions row . v = 0, with rows of length 1. `row` is NULL for none, and is freed by the owner. */
+/* Conditions row . v = 0, with rows of length 1. Without conditions, `row` is NULL. The owner frees it. */
 typedef struct conditions {
     int columns;
     int count;
@@ -74,7 +74,7 @@ static int null_space(const conditions *c, double zero, double *basis) {
         for (int j = 0; j < n; j++) {
             v[j] = j == k ? 1.0 : 0.0;
         }
-        for (int i = 0; i < pivots; i++) { /* the pivots before column k */
+        for (int i = 0; i < pivots; i++) { /* the rows whose pivot is before column k */
             const double entry = -m[i * n + k] / m[i * n + lead[i]];
             const double whole = number_nearest(entry);
             v[lead[i]] = fabs(entry - whole) > NULL_SPACE_ROUNDING ? entry : whole;

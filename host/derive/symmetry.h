@@ -28,7 +28,7 @@ typedef struct symmetries {
     int broken;     /* number of symmetries of T only that are not shifts */
     /* values at random states confirm that no affine symmetry of T or V is missing */
     bool complete;
-    bool flat; /* T has constant coefficients: every direction and rotation is affine */
+    bool flat; /* T has constant coefficients: every translation and rotation is affine */
 } symmetries;
 
 /* Finds the symmetries of a mechanism given by energies. Returns NULL if the algebra overflows. */

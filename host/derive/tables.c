@@ -10,7 +10,7 @@
 #include "host/derive/lower.h"
 #include "host/number/ratio.h"
 
-/* === functions of one angle, at any part of its turn, with their slopes ======================= */
+/* === functions of one angle and their slopes, at any angle ==================================== */
 
 /* The value of an operation at an angle. */
 typedef struct turn_value {
@@ -119,10 +119,10 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots. With the function's values at the knots, straight pieces err by at most h^2/8 f'',
- * and h^2/12 f'' on average. Cubic pieces with its slopes, too, err by h^4/384 f'''' and h^4/720 f''''. A rotating
- * mechanism accumulates the average, so each knot is moved by it, as estimated from differences between knots. Then the
- * average vanishes, and the largest error falls by a third (straight) or a half (cubic). */
+/* A table's pieces meet at knots. Straight pieces through the function's values err by at most h^2/8 f'', and by h^2/12
+ * f'' on average. Cubic pieces, which also have its slopes, err by h^4/384 f'''' and h^4/720 f''''. A rotating
+ * mechanism accumulates the average error, so each knot is corrected by an estimate of it, from differences between
+ * knots. Then the average vanishes, and the largest error falls by a third (straight) or a half (cubic). */
 
 /* The tabled functions: operations of a list of functions of one angle. Phase i is multiple[i] times the angle. */
 typedef struct table_functions {
@@ -168,7 +168,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
-/* Is table k an even function of the angle, or, if `odd`, an odd one, to the last bit? */
+/* Is table k, to the last bit, an even function of the angle? If `odd`: an odd function? */
 static bool mirrors(const op_list_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
@@ -251,7 +251,7 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
 }
 
 /* === a list as sums of products =============================================================== */
-/* The state of the conversion, which adds and multiplies out sums, and divides them by functions of the angles. */
+/* The conversion adds sums, multiplies them out, and divides them by functions of the angles. This is its state. */
 
 typedef struct collecting {
     products *made;
@@ -522,7 +522,7 @@ typedef struct coefficient {
 typedef struct tabling {
     products *from;
     refusal *why;
-    int *turns;               /* [angles] factors of the phase that is looked up */
+    int *turns;               /* [angles] factors of the turn angles in the looked-up phase */
     int *multiple;            /* [coefficients->count] multiple of that phase */
     coefficient *coefficient; /* [count] coefficients of the products, result by result */
     int count;
@@ -681,7 +681,7 @@ static void sort_out(tabling *t) {
     free(first);
 }
 
-/* The coefficients of the result begin with number `at`. */
+/* Returns the operation of a result. Its first coefficient is t->coefficient[at]. */
 static int write_result(const tabling *t, const op_list *list, lowering *l, int cell, int result,
                         int at) {
     const product_sum *sum = &t->from->result[result];

@@ -146,8 +146,8 @@ static void take_digit(digits *d, int digit, bool behind_point) {
     d->exponent -= behind_point ? 1 : 0;
 }
 
-/* Adds the exponent at `text`, from its e on, to *exponent, up to some 1e13. Returns its end, or NULL without
- * digits. */
+/* Adds the exponent at `text`, which begins with an e, to *exponent. Digits beyond some 1e13 are ignored. Returns the
+ * end of the exponent, or NULL if it has no digits. */
 static const char *read_exponent(const char *text, int64_t *exponent) {
     const bool negative = text[1] == '-';
     const char *at = text + (negative || text[1] == '+' ? 2 : 1);

@@ -11,13 +11,13 @@ enum { HEX_SIZE = 32 };
 char *hex_write(double value, char text[static HEX_SIZE]);
 
 /* Returns the double nearest to the decimal number at the start of `text`: an optional sign, digits with at most one
- * point, and optionally an e or E with a whole exponent. Any length is correct, and ties round to even. From halfway
- * beyond the largest double on, the result is infinite. The host's locale and rounding mode have no effect. *end (may
- * be NULL): the first character after the number. White space, hexadecimal numbers, "inf" and "nan" are no number: *end
- * is then `text` and the result 0. */
+ * point, and optionally an e or E with a whole exponent. Any number of digits is correct, and ties round to even. A
+ * number half an ulp or more beyond the largest double becomes infinite. The host's locale and rounding mode have no
+ * effect. *end (may be NULL): the first character after the number. White space, hexadecimal numbers, "inf" and "nan"
+ * are no number: *end is then `text` and the result 0. */
 double decimal_read(const char *text, const char **end);
 
-/* Writes a number with the fewest digits, at least 15, that are read back exactly. Zeros have no sign. Returns
+/* Writes a number rounded to 15, 16 or 17 digits, the fewest that are read back exactly. Zeros have no sign. Returns
  * `text`. */
 enum { NUMBER_SIZE = 40 };
 char *number_shortest(double value, char text[static NUMBER_SIZE]);

@@ -67,7 +67,7 @@ static enclosure waves(enclosure t, int from) {
     return sum;
 }
 
-/* Subtracts the nearest number of quarter turns, modulo 4 in *quarters. Returns false if x is too large or too wide. */
+/* Subtracts the nearest number of quarter turns; *quarters: the number modulo 4. Returns false if x is too large or wide. */
 static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
     if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {
@@ -236,7 +236,7 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* The angle of the vector (x, y), from those of the rectangle's corners if it contains neither zero nor the jump. */
+/* The angle of the vector (x, y): from the corners' angles, or any angle if the rectangle touches zero or the jump. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};

@@ -1,9 +1,9 @@
 /* enclosure.h: interval arithmetic with outward rounding: two doubles that enclose a real number for certain (Moore,
  * Kearfott, Cloud, Introduction to Interval Analysis, 2009).
  *
- * The processor rounds to nearest, as usual. After each operation, an addition and a product move the ends outwards by
- * one or two ulp (Rump, Zimmermann, Boldo, Melquiond, Computing predecessor and successor in rounding to nearest, BIT
- * 49, 2009). An exact zero stays exact.
+ * The processor rounds to nearest, as usual. Each operation then moves the ends outwards by one or two ulp, with an
+ * addition and a product (Rump, Zimmermann, Boldo, Melquiond, Computing predecessor and successor in rounding to
+ * nearest, BIT 49, 2009). An exact zero stays exact.
  *
  * A failed enclosure is NaN at both ends, for example after an overflow, a division by an interval that contains zero,
  * or a root of a possibly negative number. NaN carries over, so one enclosure_is_finite() at the end is enough. */
@@ -105,7 +105,7 @@ static inline enclosure enclosure_hull(enclosure a, enclosure b) {
 
 enclosure enclosure_div(enclosure a, enclosure b);
 enclosure enclosure_square(enclosure a);
-/* Encloses the next lower and higher doubles of `value`; each end is then moved outwards `more` times. */
+/* Encloses `value` and the doubles next to it; each end is then moved outwards `more` times. */
 enclosure enclosure_about(double value, int more);
 /* A double near the middle, and an upper bound on the distance from that double to either end. */
 double enclosure_middle(enclosure a);
@@ -125,7 +125,8 @@ enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent. If the exponent is not a whole number, `a` must be above zero. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* Encloses the function on the part of its domain in `a` or (a, b). exp(), sinh() and cosh() treat |x| > 700 as 700. */
+/* Encloses the function on the part of its domain in `a` or (a, b). exp(), sinh() and cosh() treat x > 700 as 700;
+ * sinh() and cosh() also treat x < -700 as -700. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

@@ -39,7 +39,7 @@ static uint64_t mixed(uint64_t z) {
 }
 
 /* Returns the number of doubles by which an inexact result of these operands is moved, positive if upwards. From
- * FOLDING_SOME on, it depends only on the operands' digits, not on their signs, powers of two and order. */
+ * FOLDING_SOME on, the number depends only on the operands' digits, not on their signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {

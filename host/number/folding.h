@@ -6,7 +6,7 @@
  * the loss. Two checks address this:
  *   - A sum records its loss: its round-off, relative to its smaller addend and to its result. A residue is a result
  *     that is only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3, or a product with a residue. Up to 1e-12 in
- *     SI units it is no loss. A sum in which a residue is a large part, or a division by one, is a loss.
+ *     SI units it is no loss. A sum with a residue as a large part, or a division by a residue, is a loss.
  *   - A derivation can be repeated in another *way*, in which inexact results are moved by one or two doubles, and
  *     nearly equal numbers are not merged. By chance, round-offs may cancel in one way, so there are several (Vignes,
  *     A stochastic arithmetic for reliable scientific computation, 1993, does this at run time).
@@ -41,7 +41,7 @@ int folding_way(void);
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
-/* They record losses. A sine, cosine or tangent no larger than the round-off of its angle is a residue. */
+/* The five functions record losses. A sine, cosine or tangent within the round-off of its angle is a residue. */
 double folding_power(double base, double exponent);
 double folding_call(function_id function, double x, double y);
 /* Returns true if `left`, the difference of two numbers of absolute value `size`, counts as zero: |left| <= part *

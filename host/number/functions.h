@@ -125,7 +125,7 @@ double number_remainder(double x, double y);
 double number_centred(double x, double y);
 
 /* number_scaled() returns x times 2^exponent. number_split() returns the mantissa y and *exponent: x = y 2^*exponent
- * and 0.5 <= |y| < 1. It returns zeros, infinities and NaN unchanged. */
+ * and 0.5 <= |y| < 1. Both return zeros, infinities and NaN unchanged. */
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
 

@@ -4,10 +4,10 @@
 
 #include <stdbool.h>
 
-/* Reduces m[rows * columns] until each pivot is the only nonzero entry of its column. Rows with a pivot come first, and
- * are not divided by it. If `full` is false, the first `pivots` columns are searched in order, and the largest entry of
- * a column is its pivot. If `full` is true, the next pivot is the largest entry in any of these columns. Entries up to
- * `zero` in size are no pivots. Returns the rank. lead[rank]: the pivots' columns, in rising order if not `full`. */
+/* Reduces m[rows * columns] until each pivot is the only nonzero entry of its column. Each next pivot is the largest
+ * entry of the rows that have none: in the next of the first `pivots` columns, or, if `full`, in any of them. Entries
+ * up to `zero` in size are no pivots. Rows with a pivot come first, and are not divided by it. Returns the rank.
+ * lead[rank]: the pivots' columns, in rising order if not `full`. */
 int gauss_reduce(double *m, int rows, int columns, int pivots, bool full, double zero, int *lead);
 
 /* Eliminates below the diagonal of m[n * n] without exchanging rows. Columns with a zero pivot are skipped. */

@@ -84,7 +84,7 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
 #define TENTH (UINT64_MAX / 10) /* ten times a number below this fits into 64 bits */
 
-/* The rational number of / in; infinity if `in` is 0. */
+/* The rational number `of` / `in`; infinity if `in` is 0. */
 typedef struct end {
     uint128 of, in;
 } end;
@@ -122,7 +122,7 @@ static whole_ratio between(end low, end high) {
 /* The simplest fraction strictly within two units of the 53rd bit of `value`: a relative error below 2^-51. */
 static whole_ratio simplest(double value) {
     int exponent;
-    /* below one, with 53 bits after the point */
+    /* the mantissa is below one and has 53 bits after the point */
     const double mantissa = number_split(value, &exponent);
     const uint64_t digits = (uint64_t)number_scaled(mantissa, MANTISSA);
     const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
@@ -229,7 +229,7 @@ double ratio_times(uint64_t count, whole_ratio each) {
     int shift = 0;
     while (
         !uint128_is_zero(of) &&
-        /* shifted this far, the quotient has at least 66 bits, because a denominator has at most 60 */
+        /* until `of` has 127 bits: then the quotient has at least 66, because a denominator has at most 60 */
         of.high >> 62 == 0) {
         of = uint128_left(of, 1);
         shift++;
