@@ -240,7 +240,7 @@ for command in run describe "derive --as c"; do
     exits 2 'error: --cells sets the size of tables' $command epicyclic_from_rest --cells 64
     exits 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle, such as 'theta1'" $command thomson_a --tables cubic
 done
-exits 2 'contacts.whirl:24:3: error: --tables: a scene with events cannot use tables' run ball_bounces --tables linear
+exits 2 'contacts.whirl:23:3: error: --tables: a scene with events cannot use tables' run ball_bounces --tables linear
 prints 'theta' derive epicyclic --as latex --tables cubic # its equations are the same
 prints '"form": "cubic",' describe epicyclic_from_rest --json --tables cubic
 prints '"cells": 256,' describe epicyclic_from_rest --json --tables linear
