@@ -153,7 +153,7 @@ static bool has_name(const image *im, const source_model *from, place at, const 
     return taken_by == NULL;
 }
 
-/* *good is false after an error */
+/* Returns the step in fixed point, or NULL for another number type. *good is false after an error (reported). */
 static fixed_plan *plan_of(const image *im, const source_model *from, const engine_kind *number,
                            bool *good) {
     fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, false, from->errors) : NULL;

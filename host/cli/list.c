@@ -128,7 +128,7 @@ static void put_what_is_in_scene(const scene *in) {
     end_words(any);
 }
 
-/* Escapes as in C, because the text may contain separators of fields and lines. */
+/* Prints the text with escapes as in C, because it may contain separators of fields and lines. */
 static void put_text(const char *text) {
     static const char escaped[] = "\t\n\r\\";
     for (const char *at = text; *at != '\0'; at++) {

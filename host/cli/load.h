@@ -12,11 +12,11 @@
 
 /* === the test for two names of the same file ================================================== */
 
-/* Are these the same file, by device and inode? Inodes may be 0 (some network file systems, WASI): then by path. */
+/* Are these the same file, by device and inode? If an inode is 0 (some network file systems, WASI), by path. */
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path);
 
-/* Are both the same file, by name or by identity? */
+/* Do two names mean one file: equal names, one existing file, or one file that does not exist yet? */
 bool files_same(const char *one, const char *other);
 
 /* Do two paths overlap? `output` has files beside it (.part, .toml, .sweep); so has `other`, unless it is an input. */

@@ -148,8 +148,8 @@ static bool open_line(monitor *m) {
     return true;
 }
 
-/* Replaces control characters, which a terminal would obey. Before the rig's first answer, disturbed lines and lines
- * that may begin with a part of a frame are not shown. */
+/* Shows a line of the rig, with "?" for control characters, which a terminal would obey. Before the rig's first answer,
+ * hides disturbed lines and lines that may begin with a part of a frame. */
 static void show(const monitor *m, const char *line) {
     char shown[WIRE_LINE + 1];
     size_t count = 0;

@@ -137,7 +137,7 @@ int options_choose(const char *command, const char *what, const char *value, con
 
 /* === the words of a command =================================================================== */
 
-/* An option's file. All files of a command must differ, and its outputs must be possible. */
+/* An option's file. All files of a command must differ, and Whirl must be able to write its outputs. */
 typedef enum own_file {
     FILE_NONE,
     FILE_READ,
@@ -185,7 +185,7 @@ typedef struct target_reader {
     int *passed_count;
     const char *one; /* what a target is called in messages; NULL: "scene" */
     bool none;       /* the command may have no target */
-    /* The work of target_command(), returning an exit status: work_on() with the opened target, or, if NULL, work(). */
+    /* target_command() calls work_on() with the opened target, or work() if work_on is NULL. Returns an exit status. */
     int (*work_on)(source_model *from, void *options);
     int (*work)(void *options);
 } target_reader;

@@ -72,7 +72,7 @@ typedef struct pricing {
     const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given, and for --vary */
     const char **vary;                  /* [word count] */
     int vary_count;
-    bool balance; /* overrides.balance */
+    bool balance; /* keep a ledger if the run has contacts */
 
     source_model from;
     const mechanism *of;
@@ -85,7 +85,7 @@ typedef struct pricing {
     char *named;          /* the name in --error, owned */
     double error_si;
     double until_s; /* the horizon, or the scene's end */
-    double effort;  /* operations */
+    double effort;  /* most operations of all trials */
     bool method[WH_METHODS];
     char *words;  /* changes of the scene, as typed */
     char *target; /* the target, quoted for a shell */

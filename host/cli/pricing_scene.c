@@ -94,7 +94,7 @@ static const char *name_of(void *context, int point) {
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The command line's changes, then the varied values, which replace them. Free with changes_forget(). */
+/* The command line's changes, then the varied values, which override them. Free with changes_forget(). */
 static overrides changes_in(const pricing_scene *p, int point) {
     static const grid none = {0};
     return changes_at(is_own(p, point) ? &none : p->grid, p->changes, (uint64_t)point);

@@ -40,7 +40,7 @@ static void say_none(FILE *out, const rating_request *w, const char *why, const 
 
 /* RECORDS_MOST: most records of the run. SPACING: a record's interval is a multiple of this many steps. */
 enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
-/* Computed steps per step of the run: in the rows (half, one and two), and in the reference's two runs. */
+/* Steps computed per step of the run: at double, equal and half step in the rows; at 1/4 and 1/2 in the reference. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
@@ -196,8 +196,8 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Reports that no pace satisfies the error. `least`: the smallest error. `rounds`: round-off limits it. `slow`: the
- * first pace beyond the limit of operations, which would take `operations`; or NULL. */
+/* Reports that no pace satisfies the error. `least`: the smallest error. `rounds`: round-off limits this error. `slow`:
+ * the first pace beyond the limit of operations, which would take `operations`; or NULL. */
 static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
                         const deviation_pace *slow, double operations) {
     char text[NUMBER_SIZE];

@@ -58,7 +58,7 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
 enum { INLINED_MOST = 150 };
 
 /* For lists of this length, the compiler should keep the operations' order (WH_LONG_LIST of core/step.h). On the
- * Cortex-M4F, 67 operations then take 1 % fewer instructions but 2 % more cycles; 131 take 4 % and 2 % fewer. */
+ * Cortex-M4F, 67 operations then take 1 % fewer instructions, but 2 % more cycles; 131 take 4 % and 2 % less. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }

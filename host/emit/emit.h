@@ -14,7 +14,7 @@
  * contacts, whole lines that begin with EMIT_OCTAVE_COMMENT, or "". */
 #define EMIT_OCTAVE_COMMENT "% "
 void emit_octave(FILE *out, const image *im, const char *file, const char *contacts);
-/* The lines before and after the calculation, which show_octave() writes with the file's names. */
+/* Write the lines before and after the calculation. show_octave() writes the calculation with the file's names. */
 void emit_octave_head(FILE *out, const image *im, const char *file, const char *contacts);
 void emit_octave_end(FILE *out, const image *im);
 

@@ -193,7 +193,7 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* The first half of a statement that adds to component i and limits the sum. Then come the increment and limits(). */
+/* Begins a statement that adds an increment to component i and limits the sum. limits() ends it after the increment. */
 static void limited(FILE *out, int i) {
     fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
 }

@@ -123,8 +123,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Computes the gain that multiplies a number with `from` digits after the point, at most `size` units, by `factor`, to
- * `to` digits. Returns false if the product does not fit. */
+/* Computes the gain by `factor`. Its input has `from` digits after the point and at most `size` units, its product has
+ * `to` digits after the point. Returns false if the product does not fit. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;
@@ -346,7 +346,7 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Rounding widens the stages, which matters if a step adds little, so points are chosen again until everything fits. */
+/* Chooses points again until every value fits, because their rounding widens the stages. Returns false on failure. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {
@@ -389,7 +389,7 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* The first format of a component, in which the stages fit. */
+/* Returns the initial format of a component. It can hold `range` and, at stages, `stage`. */
 static wh_fixed_format first_format(enclosure range, enclosure stage) {
     const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
     const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);

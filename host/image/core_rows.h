@@ -16,7 +16,7 @@ static inline wh_contact core_contact_row(const image_contact *c) {
                         .sets = (uint8_t)c->sets};
 }
 
-/* The core's contact system, without its functions, the ledger and the number of evaluations. The caller owns
+/* The core's contact system. Its functions, ledger and number of evaluations are not set. The caller owns
  * `contact` [contacts] and `target` [set_count]. */
 static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
                                                     const uint8_t *target) {
@@ -71,7 +71,7 @@ static inline int core_signals(const image *im) {
     return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
 }
 
-/* The core's form of the ledger, without its functions. The caller owns `account` [smooth] and `input` [inputs]. */
+/* The core's form of the ledger. Its functions are not set. The caller owns `account` [smooth] and `input` [inputs]. */
 static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *account,
                                               const uint8_t *input) {
     const image_ledger *l = &im->ledger;
@@ -87,7 +87,7 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .stabilized = im->settings.stabilized};
 }
 
-/* Number of reals for the ledger: entries, their round-off, and one for each account. */
+/* Number of reals for the ledger: the entries, the round-off of each, and form.accounts reals. */
 static inline int core_ledger_words(const image *im) {
     const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
     return im->ledger.kept ? 2 * form.entries + form.accounts : 0;

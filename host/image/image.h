@@ -279,7 +279,7 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* of the mechanism and of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* if constant folding lost digits: variants in other ways of folding (folding.h); only their lists are used */
+    /* variants with other ways of folding (folding.h), if folding lost digits; used: lists, starts and inputs */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
     struct image *finer;    /* the finer run's image (image_settings_finer()); NULL: this one */

@@ -69,7 +69,7 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* A constant operand can absorb any factor, so that there is no equation. */
+/* Does a product or quotient have a constant operand? It absorbs any factor, so the operation gives no equation. */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -349,8 +349,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                                   : m->times[operand];
 }
 
-/* Enters operation i, a product or quotient. A constant corrects the factor of the result. C does not fix the order of
- * arguments, so no call has two arguments that enter operations. */
+/* Enters operation i, a product or quotient. A new constant corrects the factor of the result. C does not fix the order
+ * of arguments, so no call has two arguments that enter operations. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);

@@ -558,7 +558,7 @@ static const expr *parse_signed(parser *in) {
     return sign.sign == '+' ? operand : expr_negate(in, sign.at, operand);
 }
 
-/* Parses PART { sign PART } with the two signs of one level, from left to right. */
+/* Parses PART { sign PART } from left to right. The two signs have the same precedence. */
 static const expr *parse_level(parser *in, const expr *(*part)(parser *), const char *signs,
                                expr_op first, expr_op second) {
     const expr *left = part(in);

@@ -273,7 +273,7 @@ typedef struct instance {
     bool *with;                   /* [effect_count] */
     const bool *conserve;         /* [coordinate_count] computed from a momentum; NULL: none */
     bool ledger;                  /* record the balance of energy and momentum */
-    bool balance;                 /* overrides.balance */
+    bool balance;                 /* keep a ledger if the run has contacts */
     double *parameter;            /* [parameter_count] SI */
     double *input;                /* [input_count] SI */
     const expr **parameter_given; /* the expressions that give these values */
@@ -285,7 +285,7 @@ typedef struct instance {
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */
-    folding folding;  /* constant folding of the expressions above */
+    folding folding;  /* record of the constant folding in these values */
     whole_ratio step; /* step_s as a fraction */
     uint64_t steps;   /* steps of the run: until_s / step_s, rounded to nearest, at most 2^63 */
     struct arena *arena;

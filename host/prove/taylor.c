@@ -284,7 +284,7 @@ bool taylor_find(taylor *t, const enclosure *x) {
     return all_finite(t);
 }
 
-/* The cost of a product: each coefficient is a sum of products, and each derivative a sum of two. */
+/* The products of enclosures for a node's coefficients up to this order: coefficient k is a sum of k + 1 products. */
 static double products_to(int order) { return 0.5 * (double)(order + 1) * (double)(order + 2); }
 
 double taylor_products(const taylor *t) {

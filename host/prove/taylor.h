@@ -1,6 +1,6 @@
 /* taylor.h: the Taylor coefficients of a motion at a time, x(t + h) = sum of x_k h^k, by recurrences (Moore; Rall and
  * Corliss, An introduction to automatic differentiation, 1996). They are enclosed for all motions through a box of
- * states. The first ones may have derivatives by the state. */
+ * states. Those of low order may have derivatives by the state. */
 #ifndef PROVE_TAYLOR_H
 #define PROVE_TAYLOR_H
 
