@@ -185,7 +185,7 @@ static void solve_conserved(const equations *e, const conservation *c, const mom
 
 const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
 
-/* Solves for the conserved rates, from the momenta and the other rates. If `closed`, also for the coordinates. */
+/* Solves for the conserved rates, from the momenta and other rates; if `closed`, also for the conserved coordinates. */
 static void recover(const equations *e, conservation *c, const momentum_law *laws) {
     algebra *a = e->algebra;
     const poly *rates[CONSERVED_MAX];

@@ -15,7 +15,7 @@
 
 typedef struct conservation {
     int count;         /* unknowns recovered */
-    int *unknown;      /* [count] */
+    int *unknown;      /* [count] index of each in equations->unknowns */
     int *number;       /* [equations->count] index of the unknown in unknown[], or -1 */
     bool closed;       /* the coordinates follow from G(q); otherwise they are integrated */
     const poly **rate; /* [count] the conserved rates as functions of the other rates */

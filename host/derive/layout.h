@@ -10,7 +10,7 @@
 
 /* === noise on recorded quantities: on outputs, and on measures of recorded outputs ============ */
 
-/* Adds the active noises to result[mechanism->output_count]. In a sweep, measures replace outputs and get no noise. */
+/* Adds the active noises to the outputs result[mechanism->output_count]. Measures get no noise of their own. */
 void noise_on_outputs(const equations *e, lowering *l, int *result);
 
 typedef struct layout {

@@ -134,7 +134,7 @@ static bool collect(const poly *p, const bool *used, int base, family *f) {
     return true;
 }
 
-/* The sum of coefficient[j] s^j c^(degree-j). added[j]: the absolute values of its addends. */
+/* The sum of coefficient[j] s^j c^(degree-j). added[j]: the sum of its addends' absolute values. */
 typedef struct expansion {
     int degree;
     double coefficient[INDICES];
@@ -287,9 +287,9 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
-    WAVE_DOUBLE,    /* the angle 2 p */
-    WAVE_SUM,       /* the angle p + q */
-    WAVE_DIFFERENCE /* the angle p - q */
+    WAVE_DOUBLE,    /* twice the angle of wave p */
+    WAVE_SUM,       /* the sum of the angles of waves p and q */
+    WAVE_DIFFERENCE /* the angle of wave p minus that of wave q */
 } wave_rule;
 
 struct wave {

@@ -281,12 +281,12 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
 }
 
 /* Eliminates the angle `turning`, unknown k, from the remaining equations mass[n * n] and force[n]. In row k, the
- * diagonal entry must be a number, *own, and the others sinusoids of the angle with one frequency. Then
+ * diagonal entry must be a number, *own, and the others sinusoids of the angle with one frequency. If not, returns
+ * false and changes nothing. The other equations become
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
- * replace the other equations; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns. Otherwise
- * returns false and changes nothing. */
+ * with the changed mass[] and force[]. Row k stays. across[n + 1] is 0 for k and for eliminated unknowns. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -649,7 +649,7 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 /* Up to these limits, all orders of elimination are tried; above, only the first. */
 #define PERMUTED_MAX 4           /* unknowns */
 #define PERMUTED_SIZE_MAX 4000.0 /* operands in the equations */
-#define LEADS_MAX 5 /* angles, besides the smallest, that are tried as the first evaluated angle */
+#define LEADS_MAX 5 /* angles, besides the smallest, that are tried as the first to be evaluated */
 
 /* Adds a hinge's terms, across_i across_j * inverse, to the mass matrix and the forces. */
 static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,

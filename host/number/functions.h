@@ -11,8 +11,8 @@
 #include <stddef.h>
 
 /* === rows of functions ================================================================== */
-/* The language's functions. Code that lists them uses these rows, or switches over function_id with -Wswitch-enum, so a
- * missing part of a new function fails the build. A new row goes to the end.
+/* The language's functions. Code that lists them uses these rows, or switches over function_id with -Wswitch-enum. So
+ * the build fails if a new function lacks code. A new row goes to the end.
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
  *
