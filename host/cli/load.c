@@ -17,7 +17,7 @@
 #include "host/lang/override.h"
 #include "host/show/show.h"
 
-#ifdef __wasi__ /* no full path: only the name that was given */
+#ifdef __wasi__ /* WASI has no full paths: returns the given name */
 static char *realpath(const char *path, char *resolved) {
     (void)resolved;
     return alloc_copy(path, strlen(path));

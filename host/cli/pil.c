@@ -273,7 +273,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     return tell(o, request, im, &report);
 }
 
-/* Parameters changed by faults come after --set, and so replace its values. */
+/* Faults may change parameters. Their values come after those of --set, and so replace them. */
 static int load_plant(pil_options *o, source_model *from, const mechanism *of, const scene *in,
                       loaded *made) {
     overrides *changes = &o->common.changes;

@@ -13,7 +13,7 @@ typedef struct rating_request {
     const char *target;
     const cost_board *board;
     const char *board_word;    /* NULL: the default board */
-    const engine_kind *number; /* of the command line; NULL: the board's */
+    const engine_kind *number; /* --number; NULL: the board's number type */
     const image_settings *settings;
     const overrides *changes;
     const mechanism *of;

@@ -70,7 +70,7 @@ typedef struct run_options {
     const char *error;
     const char *board_word;
     const cost_board *board;
-    const engine_kind *number; /* of the command line, or NULL */
+    const engine_kind *number; /* --number, or NULL */
     simulation_settings settings;
 } run_options;
 

@@ -110,7 +110,7 @@ typedef struct sweep_options {
     bool maps, fresh, quiet, json;
 } sweep_options;
 
-/* Reads "K/N", a part of the sweep. */
+/* Reads "K/N", the K-th of N parts of the sweep. */
 static bool read_shard(const char *text, sweep_options *o) {
     const char *slash;
     const char *end;

@@ -124,7 +124,7 @@ static int product_bits(const fixed_list *l, const fixed_op *o) {
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* The digits after the point of a sum, at most the finer operand's. Constants and compared values must fit. */
+/* Returns a sum's digits after the point: at most the finer operand's. Constants and compared values fit with them. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -551,7 +551,7 @@ static bool enclose_all(hull *h) {
     return !h->divides_zero;
 }
 
-/* Is a denominator zero somewhere in the turn with all other leaves at mid-range? Smaller ranges would not help. */
+/* Is a denominator zero somewhere in the turn with all other leaves at mid-range? Then no smaller range helps. */
 static bool divides_zero_anyway(hull *h) {
     h->at_middles = true;
     return !enclose_all(h);

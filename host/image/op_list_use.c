@@ -413,7 +413,7 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* Operation i is a + 2 b, a - 2 b or 2 b - a. Finds the operation *half that has *part = b in place of 2 b. */
+/* If operation i is a + 2 b, a - 2 b or 2 b - a: finds *half, the same with b in place of 2 b. *part: b. Else false. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);

@@ -16,7 +16,7 @@ bool parse_close(parser *in, place open);
 /* Reads the current unit token, or a unit without brackets up to the end of the text. *text has no blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
-/* Returns the line of a later statement of the mechanism that declares the name, or 0. */
+/* Returns the line of the statement that declares the name later in the same mechanism; 0 if there is none. */
 int name_declared_later(const token *name);
 /* Reports an unknown coordinate, with the nearest known name as a hint. */
 void no_such_coordinate(parser *in, const token *name);

@@ -51,7 +51,7 @@ typedef struct builder {
     bool has_energies;  /* has a coordinate, T, V, F or Q */
     bool has_equations; /* has a state or an equation */
     bool mixed;         /* a mix of energies and equations was reported */
-    bool nameless;      /* made up, because the `mechanism` line or its name is missing */
+    bool nameless;      /* the `mechanism` line or its name is missing */
     bool broken;        /* a statement failed: do not report anything as missing */
 } builder;
 

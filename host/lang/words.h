@@ -76,7 +76,7 @@ enum {
 enum {
     RESERVED = 1,      /* not available as a user's name */
     DECLARES = 2,      /* declares the name after it */
-    ENDS_EFFECT = 4,   /* begins a line in an effect: the effect's '}' is missing */
+    ENDS_EFFECT = 4,   /* at the start of a line in an effect: the effect's '}' is missing */
     ENDS_SCENE = 8,    /* the same, for a scene */
     ENDS_WHEN = 16,    /* the same, for a `when` */
     INTO_EFFECT = 32,  /* in a scene, the message says that the statement belongs into an effect */

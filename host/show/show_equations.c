@@ -210,7 +210,7 @@ static char *narrowed(span s, int limit) {
     }
 }
 
-/* Returns rows "first \\ &\quad + next". */
+/* Returns s broken into rows: "first \\ &\quad + next". */
 static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
