@@ -70,7 +70,7 @@ typedef struct pricing {
     common_options common;
     const char *typed;                  /* the target as typed */
     const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given, and for --vary */
-    const char **vary;                  /* [word count] */
+    const char **vary;                  /* [number of command-line words] */
     int vary_count;
     bool balance; /* keep a ledger if the run has contacts */
 

@@ -96,9 +96,9 @@ typedef struct sweep_options {
     const char *command;
     common_options common;
     const char *target;
-    const char **over; /* [word count] */
+    const char **over; /* [number of command-line words] */
     int over_count;
-    const char **measure; /* [word count] */
+    const char **measure; /* [number of command-line words] */
     int measure_count;
     /* as typed, or NULL */
     const char *from, *csv, *shard_text, *plot;

@@ -21,7 +21,7 @@ void c_header_title(FILE *out, const image *im, const char *file, const char *fo
 /* Write the line about the licence, and the check that core and scene have one version. */
 void c_header_licence(FILE *out);
 void c_header_version(FILE *out);
-/* Writes the header after the scene's declaration. */
+/* Writes the part of the header that follows the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
 /* Writes the scene's declaration by WH_LINKS_TO() of version.h, and the body. */
 void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,

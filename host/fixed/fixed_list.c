@@ -100,7 +100,7 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
 
 /* === binary points and shifts ================================================================= */
 
-enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* of the binary point; no mechanism reaches them */
+enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* limits that no binary point reaches in practice */
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {

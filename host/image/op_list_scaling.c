@@ -341,7 +341,7 @@ static int make_phase(const multiplied *m, const op *o) {
     return made;
 }
 
-/* The factor of an operand. Each use of a raw value has its own. */
+/* The factor of an operand. Each use of a raw value has its own factor. */
 static double times_of(const multiplied *m, int i, int which) {
     const op *o = &m->from->ops[i];
     const int operand = which == 0 ? o->a : o->b;

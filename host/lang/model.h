@@ -132,7 +132,7 @@ typedef struct contact_statement {
     const expr *restitution;     /* stop: restitution, 0 to 1 */
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
-    const expr *normal;     /* friction: normal force [N]; below zero counts as zero */
+    const expr *normal;     /* friction: normal force, a torque for an angle; below 0 counts as 0 */
     const expr *condition;  /* hold: active while above zero; `and` is min, `or` is max */
     int direction;          /* when: +1 rising, -1 falling, 0 both */
     const assignment *sets; /* when: all values are computed before any is assigned */
@@ -147,7 +147,7 @@ enum { CONTACTS_MAX = 16, SETS_MAX = 128 };
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
-    const symbol *record;  /* the output with noise (SYM_RECORD), shared by its noises */
+    const symbol *record;  /* the output with noise (SYM_RECORD), one for all its noises */
     const expr *deviation; /* expression of constants, in the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
@@ -205,7 +205,7 @@ typedef struct scene {
     int set_count;
     const assignment *starts;
     int start_count;
-    const bool *conserve;           /* [mechanism->coordinate_count] */
+    const bool *conserve;           /* [mechanism->coordinate_count] named by `conserve` */
     bool ledger;                    /* `with ledger`: record the balance of energy and momentum */
     const contact_statement *whens; /* `when` statements of the scene itself */
     int when_count;

@@ -300,7 +300,7 @@ typedef struct figure {
 static figure not_less(double x, int places) {
     figure f;
     const char *end;
-    /* twice, because the conversion of units rounds, too */
+    /* two doubles above x, because the conversion of its unit rounds, too */
     double shown = enclosure_above(enclosure_above(x));
     snprintf(f.text, sizeof f.text, "%.*e", places, x);
     while (x > 0.0 && decimal_read(f.text, &end) < x) {

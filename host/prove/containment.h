@@ -33,7 +33,7 @@ typedef enum containment_verdict {
 } containment_verdict;
 
 typedef enum containment_end {
-    CONTAINMENT_AT_END,   /* the run ends, or no state is open */
+    CONTAINMENT_AT_END,   /* the run is compared to its end, or no state is open */
     CONTAINMENT_RUN_ENDS, /* the run failed */
     CONTAINMENT_NO_STEP,  /* the tube has no further step */
     CONTAINMENT_SPENT,    /* the limit on products was reached */
@@ -58,7 +58,7 @@ typedef struct containment_found {
     containment_state *state; /* [motion->states] */
     int states;
     wh_status status;   /* status of the run's last step */
-    uint64_t run_steps; /* completed steps */
+    uint64_t run_steps; /* completed steps of the run */
     uint64_t flowpipe_steps;
     double tube_s; /* the tube's last time */
     containment_end end;

@@ -227,7 +227,7 @@ static void need(const graph *g, bool *needed, int a) {
             }
         }
         if (needed[i] && n->kind == NODE_SINE) {
-            needed[i + 1] = true; /* the cosine belongs to the sine */
+            needed[i + 1] = true; /* a sine needs its cosine, the next node */
         }
     }
 }

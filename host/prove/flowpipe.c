@@ -361,7 +361,7 @@ struct flowpipe {
     enclosure *along; /* [states] box of `off` along `axes` */
     enclosure *turn;  /* [first + 1][states * states] derivatives of the coefficients, times axes */
     enclosure *stay;  /* [states] contains the motion during the whole step */
-    double *largest;  /* [states] */
+    double *largest;  /* [states] largest absolute value so far */
     double open_s;    /* length of the open step; 0: none */
     double guess_s;   /* guess for the next step, s */
     uint64_t steps;

@@ -94,7 +94,7 @@ void show_fraction(const show *s, const poly *top, const poly *bottom);
 void show_octave(FILE *out, const equations *e, bool (*is_free)(const char *name));
 
 /* Prints the derivation: the Lagrangian; for each coordinate its momentum, the momentum's rate, the derivatives of L
- * and F, Q, and the equation. Not for a system, which has no energies. */
+ * and F, Q, and the equation. A system of equations has no energies, and so no derivation. */
 void show_steps(FILE *out, const equations *e, show_style style);
 
 #endif
