@@ -230,7 +230,7 @@ static bool options_fit(derive_options *o) {
     /* Matlab runs the same function file as Octave */
     const char *form = strcasecmp("matlab", o->form) == 0 ? "octave" : o->form;
     const int chosen = options_choose("derive", "form", form, forms, sizeof forms[0], FORMS);
-    const char *name = o->common.changes.name; /* a name as in a .whirl file */
+    const char *name = o->common.changes.name; /* must be a name as in a .whirl file */
     if (chosen < 0 || (name != NULL && !options_is_name("derive", name, NAME_LENGTH_MAX))) {
         return false;
     }

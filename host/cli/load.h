@@ -60,7 +60,7 @@ typedef struct load_request {
 
 typedef struct loaded {
     image *image;
-    instance *instance; /* the equations refer to it */
+    instance *instance; /* `equations` point to it, so unload() frees both */
     equations *equations;
     char *contacts; /* contacts in words, whole lines; or "" */
 } loaded;

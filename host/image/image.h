@@ -94,7 +94,7 @@ enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENT
 typedef struct image_unit {
     const char *shown; /* "deg/s" */
     const char *si;    /* "rad/s" */
-    double scale;      /* displayed number = SI * divisor / scale; both 1 if displayed in SI */
+    double scale;      /* displayed number = SI * divisor / scale; 1 and 1 if in SI */
     double divisor;
 } image_unit;
 
@@ -273,22 +273,22 @@ typedef struct image {
     int coordinates;  /* integrated coordinates, angles included (second order) */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
-    int inputs;       /* of the mechanism and of the active effects */
+    int inputs;       /* inputs of the mechanism and of the active effects */
     int own_outputs;  /* number of the mechanism's outputs */
     int outputs;      /* own_outputs, plus value and rate of each recovered coordinate */
     int recovered;    /* coordinates recovered from their momentum */
-    int parameters;   /* of the mechanism and of the active effects */
+    int parameters;   /* parameters of the mechanism and of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
     /* variants with other ways of folding (folding.h), if folding lost digits; used: lists, starts and inputs */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
-    struct image *finer;    /* the finer run's image (image_settings_finer()); NULL: this one */
+    struct image *finer;    /* image of the finer run (image_settings_finer()); NULL: this image */
     bool unbounded;         /* in a variant, a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
-    int *place; /* [count] each unknown's coordinate number in the scene, or -1 (second order) */
-    int *from_momentum;    /* [recovered] unknown */
+    int *place;         /* [count] number among the integrated coordinates, or -1 (second order) */
+    int *from_momentum; /* [recovered] unknown */
     image_quantity *input; /* [inputs] with the value at the start */
     image_drive *drive;    /* [drives] */
     int drives;

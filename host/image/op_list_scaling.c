@@ -569,7 +569,7 @@ int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) /
 typedef struct scaling_search {
     const op_list *like;
     const op_list *from; /* the last round's list */
-    int most;            /* largest number of operations */
+    int most;            /* largest allowed number of operations */
     op_list *best;       /* NULL: none found yet */
     double bias;
     int operations;
