@@ -121,7 +121,7 @@ static void print_stored(const show *s, const equations *e, const symmetry *of,
     free(row);
 }
 
-/* Reports two lengths that the symmetry shifts by different amounts: its momentum need not be the total momentum. */
+/* Reports two lengths that the symmetry shifts by different amounts: then its momentum may not be the total one. */
 static void print_uncommon(const show *s, const equations *e, const symmetry *of,
                            const char *prefix) {
     const symbol *moved[2] = {NULL, NULL};

@@ -149,7 +149,7 @@ static void put_place(const char *kind, const char *name, const mechanism *of, c
     printf("\t%d\t%d\t", first_line, last_line);
 }
 
-/* Returns false after an error (reported). */
+/* Prints step and end of a scene. Returns false after an error (reported). */
 static bool put_times(const mechanism *of, const scene *in, diags *errors) {
     instance *made = instance_make(of, in, NULL, errors);
     if (made == NULL) {

@@ -1,4 +1,4 @@
-/* load.h: from the target on the command line to an image. */
+/* load.h: the steps from the command line's target to an image. */
 #ifndef CLI_LOAD_H
 #define CLI_LOAD_H
 

@@ -161,7 +161,7 @@ void emit_octave(FILE *out, const image *im, const char *file, const char *conta
 }
 
 bool emit_octave_variable_is_free(const char *name) {
-    /* keywords; names of the file; functions that it calls */
+    /* keywords; names in the generated file; functions that this file calls */
     static const char taken[] =
         "arguments break case catch classdef continue do else elseif end end_try_catch "
         "end_unwind_protect endarguments endclassdef endenumeration endevents endfor endfunction "
