@@ -106,7 +106,7 @@ for row in $FOLDERS; do
         awk -v seed="$SEED" -v count=$((MUTANTS * 4)) -f "$here/draw.awk" >"$name.drawn"
     touch "$name.found"
     awk -F '\t' -v sum="$tests_sum" -v never="$NEVER" '
-        $2 == "survived" ? $4 == sum : $2 != "killed" || $3 !~ never' "$name.found" >"$name.kept"
+        $2 == "survived" ? $4 "" == sum : $2 != "killed" || $3 !~ never' "$name.found" >"$name.kept"
     mv "$name.kept" "$name.found"
     rm -rf "$name.claims"
     mkdir "$name.claims"
