@@ -66,7 +66,7 @@ typedef struct wh_stepped_second {
     wh_real a1[WH_COORDS];               /* accelerations of the first stage */
     wh_real rates[WH_STAGES][WH_COORDS]; /* rates of the later stages */
     wh_real accels[WH_STAGES][WH_COORDS];
-    wh_real alike[WH_STAGES][WH_COORDS]; /* results, summed over stages of equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of the derivatives over stages of equal weight */
 } wh_stepped_second;
 
 /* Computes the positions of stage s, for a method with .places. Returns as wh_step_second_stage() does. */
@@ -168,7 +168,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 typedef struct wh_stepped_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* results, summed over stages of equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of the derivatives over stages of equal weight */
 } wh_stepped_first;
 
 /* Computes stage s > 0. Returns as wh_step_second_stage() does. */

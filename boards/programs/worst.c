@@ -2,8 +2,8 @@
  *
  * Every scene with contacts runs WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps the state is
  * randomized: any angles, rates times a factor from -2 to 2, inputs times a factor from -4 to 4, positions moved by up
- * to eight steps; the contacts' modes are determined again. The counter records the largest interval of a scene and
- * seed (count_plugin.c, every=WORST_STEPS). Prints the lines of bench.c, and before them
+ * to eight steps; the contacts' modes are determined again. The counter records the most instructions of a step, for each
+ * scene and seed (count_plugin.c, every=WORST_STEPS). Prints the lines of bench.c, and before them
  *
  *     declared NAME EVALUATIONS SIGNALS    declared limits of evaluations in one step (contact.h) */
 #include "boards/programs/counted.h"

@@ -90,7 +90,7 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
     }
 }
 
-/* The balanced energy. `value`: the results of the books list, or their error bounds. */
+/* The energy whose balance is checked. `value`: the results of the books list, or their error bounds. */
 static double energy_of(const image *im, const double *value) {
     const double *entry = value + im->count;
     return im->has_integral ? entry[BOOK_MOMENTA + im->count]

@@ -14,7 +14,7 @@
 #define SLOW_LEAST_RAD 3e-9  /* two units: the round-off of an angle that hardly moves, rad */
 #define SLOW_LEAST_UNITS 4.0 /* in fixed point, which also rounds accelerations to units */
 
-/* Is component i, angles first, too slow? */
+/* Does component i move so slowly that its round-off shows? Angles come first. */
 bool slow_component(const engine_kind *kind, const void *run, int i);
 
 /* The number of slow components. *share: their largest round-off, as a part of the component's range; 0: none. */

@@ -179,7 +179,7 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
  * are its decimal fractions, five a decade. */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Most operations of all tries. Their comparison with the reference takes the same time again. */
+/* Limit on the operations of all tries together. Their comparison with the reference takes the same time again. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
 /* From long to short steps. */

@@ -486,7 +486,8 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* Weight of a result that changes nothing the list reads, such as a free carriage's acceleration: no error grows. */
+/* Weight of a result such as a free carriage's acceleration: the list does not read what it changes, so its error cannot
+ * grow from step to step. */
 #define UNREAD (1.0 / 64.0)
 
 /* Gives weight 1 to a result that changes a component that the list reads, else UNREAD. Angles come before reals. */

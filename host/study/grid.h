@@ -45,7 +45,7 @@ bool grid_varies_parameters(const grid *g);
 /* The points of shard k of n (1 <= k <= n): first <= point < end. Shards 1 to n have every point once, in order. */
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
 
-/* === values of a point as changes ============================================================= */
+/* === the values of a point, as overrides ============================================================= */
 
 /* The changes of `base`, then the point's exact values, which take precedence. Free with changes_forget(). */
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);

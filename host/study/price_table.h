@@ -23,7 +23,7 @@ typedef struct table_price {
     double least, most;
 } table_price;
 
-/* With contacts, all steps of a run are counted, at each point of the trials. */
+/* Scenes with contacts: the costs of all steps of whole runs, one at each point of the trials. */
 typedef struct counted_run {
     double steps; /* number of counted steps at all points together; 0: no whole run was counted */
     double instructions_bound; /* declared bound for a step (docs/dev/events.md); 0: unknown */
