@@ -140,7 +140,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 #define WH_MERGE_MEAN_PIECES 6U
-/* Compute means and half-widths in pieces. mean_N and at_pulse_N are without tare_N; fewer than two turns give 0.
+/* Compute means and half-widths in pieces. mean_N and at_pulse_N are without tare_N. With one turn half-widths are 0.
  * Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
