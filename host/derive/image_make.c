@@ -290,6 +290,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
     *im = *base;
     im->memory = memory;
     im->base = base->base != NULL ? base->base : base;
+    im->finer = NULL; /* that of `base` has other starts */
     time_it(im, inst);
     im->unknown = copy(&d, base->unknown, im->count, sizeof *im->unknown);
     for (int i = 0; i < im->count; i++) {

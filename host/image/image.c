@@ -40,9 +40,7 @@ void image_free(image *im) {
     for (int k = 0; k < im->ways && im->base == NULL; k++) {
         image_free(im->otherwise[k]);
     }
-    if (im->base == NULL || im->finer != im->base->finer) {
-        image_free(im->finer);
-    }
+    image_free(im->finer);
     arena_free(im->memory);
 }
 
