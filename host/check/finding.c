@@ -1,9 +1,12 @@
 #include "finding.h"
 
 #include "apart.h"
+#include "core/state.h"
 #include "energy_residual.h"
 #include "host/check/horizon.h"
 #include "slow.h"
+
+_Static_assert(WH_EVENTS_MAX == 8, "messages here, in horizon.c and in choice.c say eight");
 
 const finding_row finding_rows[FINDINGS] = {
     [FINDING_MASS] =

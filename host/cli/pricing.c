@@ -182,7 +182,7 @@ static bool read_methods(pricing *p) {
 }
 
 /* The requested table: on all processors, with progress on a terminal. */
-static table_request wish_of(const pricing *p) {
+static table_request request_of(const pricing *p) {
     const bool shows = p->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_request){.operations = p->effort,
                            .method = p->value[PRICING_METHOD] != NULL ? p->method : NULL,
@@ -411,7 +411,7 @@ static int price_scene(void *options) {
     }
     const char *csv = p->value[PRICING_CSV];
     const bool measure = p->value[PRICING_MEASURE] != NULL;
-    const table_request request = wish_of(p);
+    const table_request request = request_of(p);
     if (p->value[PRICING_JSON] != NULL && options_is_standard(csv)) {
         fputs("whirl price: error: --json and rows cannot share standard output\n"
               "hint: --csv rows.csv\n",
@@ -635,7 +635,7 @@ static int choose_scene(void *options) {
     if (opened != EXIT_DONE) {
         return opened;
     }
-    choice_request w = {.table = wish_of(p)};
+    choice_request w = {.table = request_of(p)};
     whole_ratio spacing;
     if (!fits(p) || !read_limits(p, &w) || !space_records(p, &w, &spacing) ||
         (p->value[PRICING_MEASURE] != NULL && !can_measure(p))) {

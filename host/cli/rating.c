@@ -165,11 +165,11 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
     }
     const grid none = {0};
     pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
-    image_settings plain;
-    image_settings_finer(w->settings, &plain);
+    image_settings finer;
+    image_settings_finer(w->settings, &finer);
     pricing_scene_lend(p, w->settings, w->image);
-    pricing_scene_lend(p, &plain, w->image->finer);
-    print_rows(out, w, p, &s, &plain, (uint64_t)steps);
+    pricing_scene_lend(p, &finer, w->image->finer);
+    print_rows(out, w, p, &s, &finer, (uint64_t)steps);
     pricing_scene_free(p);
 }
 

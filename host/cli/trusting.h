@@ -1,4 +1,4 @@
-/* trusting.h: the common part of `whirl trust` and `whirl run`: the image of the finer run. */
+/* trusting.h: the common parts of `whirl trust` and `whirl run`: the step in fixed point, and the limit of --effort. */
 #ifndef CLI_TRUSTING_H
 #define CLI_TRUSTING_H
 
