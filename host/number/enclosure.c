@@ -263,11 +263,11 @@ enclosure enclosure_call(function_id function, enclosure a, enclosure b) {
     case FN_ACOS: return steady(function, a, -1.0, 1.0);
     case FN_EXP:
         f = steady(function, a, -740.0, 700.0);
-        return (enclosure){a.low < -700.0 ? 0.0 : f.low, f.high};
+        return a.high > 700.0 ? none() : (enclosure){a.low < -700.0 ? 0.0 : f.low, f.high};
     case FN_COSH:
         f = steady(function, size_of(a), 0.0, 700.0);
-        return (enclosure){enclosure_larger(f.low, 1.0), f.high};
-    case FN_SINH: return steady(function, a, -700.0, 700.0);
+        return size_of(a).high > 700.0 ? none() : (enclosure){enclosure_larger(f.low, 1.0), f.high};
+    case FN_SINH: return size_of(a).high > 700.0 ? none() : steady(function, a, -700.0, 700.0);
     case FN_ATAN:
     case FN_TANH: return steady(function, a, a.low, a.high);
     case FN_LOG: return a.high > 0.0 ? steady(function, a, 0x1p-1074, a.high) : none();

@@ -125,8 +125,8 @@ enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent. If the exponent is not a whole number, `a` must be above zero. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* Encloses the function on the part of its domain in `a` or (a, b). exp(), sinh() and cosh() treat x > 700 as 700;
- * sinh() and cosh() also treat x < -700 as -700. */
+/* Encloses the function on the part of its domain in `a` or (a, b). Of exp(x) with x > 700, and of
+ * sinh(x) and cosh(x) with |x| > 700, nothing is known: the result is not finite. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

@@ -225,7 +225,8 @@ static void test_sines(void) {
 static void test_functions(void) {
     for (unsigned i = 0; i < dice_cases(usual_or(60000, 15000)); i++) {
         const function_id function = (function_id)(i % (unsigned)FUNCTIONS);
-        const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* near 1, or far from 1 */
+        static const double scales[] = {1.0, 0x1p-20, 0x1p7}; /* 2^7: exp() may overflow */
+        const double scale = scales[dice_one_of(&die, 3)];
         enclosure a = drawn_enclosure();
         enclosure b = drawn_enclosure();
         a = (enclosure){scale * a.low, scale * a.high};
@@ -234,12 +235,14 @@ static void test_functions(void) {
         const double y = between(b);
         const double value = number_call(function, x, y);
         const enclosure got = enclosure_call(function, a, b);
-        const bool large = fabs(value) > 1e300 || (function == FN_TAN && !enclosure_is_finite(got));
+        const bool grows = function == FN_EXP || function == FN_SINH || function == FN_COSH;
+        const bool large = (grows && fmax(function == FN_EXP ? a.high : -a.low, a.high) > 700.0) ||
+                           function == FN_TAN;
+        const bool open = large ? !enclosure_is_finite(got) : function == FN_LOG && isinf(value);
         char message[200];
         snprintf(message, sizeof message, "%s(%.17g, %.17g) = %.17g is not in [%.17g, %.17g]",
                  function_name(function), x, y, value, got.low, got.high);
-        TEST_ASSERT_TRUE_MESSAGE(isnan(value) || large || isinf(value) || enclosure_has(got, value),
-                                 message);
+        TEST_ASSERT_TRUE_MESSAGE(isnan(value) || open || enclosure_has(got, value), message);
         const enclosure point = enclosure_call(function, enclosure_of(x), enclosure_of(y));
         if (!isnan(value) && !large && enclosure_is_finite(point) && function != FN_SIGN &&
             function != FN_TAN && function != FN_SIN && function != FN_COS &&
