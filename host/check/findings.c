@@ -43,18 +43,27 @@ static void say_constants(FILE *out, const run_checks *v) {
         v->image->mechanism);
 }
 
+/* Was the energy residual larger before the end? */
+static bool is_before_the_end(const run_checks *v) {
+    return v->found[FINDING_ENERGY].value > 2.0 * v->balance.ratio;
+}
+
+double findings_limit(const run_checks *v, finding_id id) {
+    return id == FINDING_ENERGY && is_before_the_end(v) ? RUN_CHECKS_ON_THE_WAY
+                                                        : finding_rows[id].limit;
+}
+
 static void say_energy(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const double part = v->found[FINDING_ENERGY].value;
-    const bool before = part > 2.0 * b->ratio; /* the residual was larger before the end */
+    const bool before = is_before_the_end(v);
     fprintf(
         out,
         "the energy balance fails: its residual %s %.3g J, %.2e of the largest entry of the energy balance",
         before ? "reached" : "is", before ? part * b->largest_J : b->left_J,
         before ? part : b->ratio);
     if (v->found[FINDING_ENERGY].reported) { /* else --strict has a smaller limit */
-        fprintf(out, " (limit %g)",
-                before ? RUN_CHECKS_ON_THE_WAY : finding_rows[FINDING_ENERGY].limit);
+        fprintf(out, " (limit %g)", findings_limit(v, FINDING_ENERGY));
     }
     if (b->jump_s >= 0.0) {
         fprintf(out, ", most of it lost at about t = %.6g s", b->jump_s);

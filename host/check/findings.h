@@ -9,9 +9,11 @@
 
 /* Prints findings, "whirl run: warning: ... [word]", and tried remedies. `fails`: the energy finding is an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
-/* findings_message(): text of a reported finding. findings_where(): its column or contact; false: it has none. */
+/* findings_message(): text of a reported finding. findings_where(): its column or contact; false: it has none.
+ * findings_limit(): the limit that its value exceeds. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
+double findings_limit(const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);
 /* For a run that ended too early, or with undefined energies: prints options with which it completes, if found. */
 void findings_say_failed(FILE *out, const run_checks *v);

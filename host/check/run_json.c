@@ -85,7 +85,7 @@ static void put_findings(json *j, const run_checks *v) {
         }
         json_time(j, "from_s", f->at_s);
         json_number(j, "value", f->value);
-        json_number(j, "limit", finding_rows[id].limit);
+        json_number(j, "limit", findings_limit(v, (finding_id)id));
         json_text(j, "limit_unit", finding_rows[id].unit);
         json_text(j, "message", message);
         json_close(j, '}');

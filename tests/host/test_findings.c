@@ -341,3 +341,38 @@ TEST(thresholds, both_sides_of_each_limit) {
     }
     model_drop();
 }
+
+/* Bodies cross a hill in a few steps. The energy residual exceeds its limit at the end, or only before it: there the
+ * limit is larger. */
+TEST(thresholds, json_has_the_limit_of_the_message) {
+    dice d = dice_of("limits", 30112026);
+    int seen[2] = {0, 0};                                   /* findings at the end, before it */
+    double least[2] = {(double)INFINITY, (double)INFINITY}; /* of value / limit */
+    for (unsigned i = 0; i < 300; i++) {
+        static said what;
+        char text[TEXT];
+        char limit[100];
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
+                 "V = %.17g [J]*exp(-(x/0.1 [m])^2)\n"
+                 "scene s { start x = -0.5 [m], x' = 2 [m/s]\nstep %.17g [ms]\nuntil 1.2 [s] }\n",
+                 dice_between(&d, 0.3, 1.9), dice_between(&d, 35.0, 60.0));
+        COMMAND_SAY(command_run, &what, model_keep(text), "--json");
+        const char *message = strstr(what.out, "the energy balance fails");
+        if (message != NULL) {
+            json_value(what.out, "findings/0/limit", limit);
+            const double in_message = strtod(strstr(message, "(limit ") + strlen("(limit "), NULL);
+            TEST_ASSERT_TRUE_MESSAGE(in_message == strtod(limit, NULL), what.out);
+            const int before = strstr(message, "residual reached") != NULL;
+            const double value = strtod(json_value(what.out, "findings/0/value", limit), NULL);
+            least[before] = fmin(least[before], value / in_message);
+            seen[before]++;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        printf("  %s: %d, the least %.3g of the limit\n", k == 0 ? "at the end" : "before it",
+               seen[k], least[k]);
+        TEST_ASSERT_TRUE(seen[k] > 5 && least[k] >= 1.0 && least[k] < 1.3);
+    }
+    model_drop();
+}
