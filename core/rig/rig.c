@@ -28,7 +28,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     wh_guard_start(&rig->guard, now_ticks);
     (void)wh_observer_start(&config->observer, &rig->observer, now_ticks);
     enter(rig, WH_RIG_IDLE, now_ticks);
-    /* the rotor's speed is unknown */
+    /* the rotor may turn at an unknown speed: assume the limit */
     rig->run.off_radps = config->guard.limit_radps;
     rig->run.since_ticks = now_ticks;
     if (before != NULL && before->trip != WH_TRIP_NONE) {
@@ -94,8 +94,8 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
 
 #define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
 
-/* Returns true if the last four pulses are of alternating sensors. way[] gets the ticks between them, newest first;
- * *last the sensor of the newest. */
+/* Returns true if the last four pulses are recent and their sensors alternate. Sets way[] to the three times between
+ * these pulses, in ticks, the newest first. Sets *last to the sensor of the newest pulse. */
 static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
     *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
     const uint32_t *newest = rig->heard_ticks[*last];
@@ -116,8 +116,8 @@ static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsi
 #define STORM_TICKS 18750U
 
 /* True if the sensors' pulses come in the wrong order. From sensor 1 to sensor 2, the rotor takes a quarter turn
- * forwards, or three quarters backwards. So the time from sensor 1 to sensor 2 must exceed the times before and after
- * it; a single comparison could fail while the rotor speeds up. Pulses faster than any rotor show no direction. */
+ * forwards, or three quarters backwards. The order is wrong if each time from sensor 1 to sensor 2 exceeds each time
+ * from sensor 2 to sensor 1. One comparison is not enough, because it could fail while the rotor speeds up. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -130,8 +130,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* For WH_RUN_START_S the commanded voltage bounds the speed. When this bound falls, two more pulses must exceed it
- * to trip the rig, so their time is added. */
+/* The bound on the speed falls when WH_RUN_START_S has passed since the loop closed. The rig trips only after two
+ * pulses above the new bound, so the start counts as longer by the time of two pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {
@@ -156,7 +156,7 @@ static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t
                : trip;
 }
 
-/* === the conditions of orders that do not depend on the state: supply, rest, cause of a trip removed === */
+/* === conditions of orders that are not in the table of states ================================ */
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
                                    const wh_rig_inputs *inputs) {
@@ -317,7 +317,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
-        /* A stop never switches the enable on. */
+        /* Brake only if the enable is already on, because a stop must never switch it on. */
         rig->brakes = config->stop_brakes && (wh_run_drives(&rig->run) || brakes(rig));
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             rig->ended = stopped_by(inputs, order->event);
@@ -396,7 +396,7 @@ static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
     if (rig->guard.quiet) {
         rig->run.off_radps = WH_R(0.0);
-        if (rig->pulses.speed.running) { /* the times of old pulses would wrap */
+        if (rig->pulses.speed.running) { /* old pulses look recent after the timer wraps */
             wh_pulses_forget(&rig->pulses);
         }
     }
@@ -422,7 +422,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        /* The rotor is stalled, or turns without pulses and must not become fast. */
+        /* No pulses come: the rotor is stalled, or turns unseen and could become too fast. */
         wh_guard_trip(guard, WH_TRIP_STALLED);
     }
     if (drives) {
@@ -434,14 +434,14 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* stays false until the next sample, because time stamps wrap */
+        guard->load_good = false; /* latched: an old sample looks recent when the timer wraps */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
     }
 }
 
-/* The pulse after a suspect takes the time of two pulses, so the observer's work waits for the next step. */
+/* A pulse that decides about a suspect takes as long as two pulses, so the observer's work waits for the next step. */
 static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
     return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
 }
@@ -454,7 +454,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
     if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
-        rig->loads++; /* two steps of the observer cost as much as a sample */
+        rig->loads++; /* counted as a load sample, because two observer steps leave less time */
     }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
@@ -534,9 +534,9 @@ static void step_run(const wh_rig_config *config, wh_rig *rig, const wh_rig_inpu
     }
 }
 
-/* Returns the number of half nodes for which this step has time. A late controller gets the samples and observer steps
- * of several steps at once, and none in the next step. There is less time if a pulse may be confirmed while the
- * observer runs. */
+/* Returns the number of half nodes for which this step has time. A late step gets the load samples and observer steps
+ * of several steps, and the next step gets none. If the observer runs and the last pulse is not yet confirmed, there
+ * is less time, because this step may confirm it. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -547,7 +547,7 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->compensated && rig->pulses.waits ? 1U : 0U);
 }
 
-/* If more confirmed pulses than this wait, even a step that has processed a pulse confirms one. */
+/* Number of confirmed pulses that may wait. If more wait, even a step that has processed a pulse takes one of them. */
 #define CONFIRMED_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -600,8 +600,8 @@ static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
 /* Values that one part of a step sets and a later part reads:
  *
  *   set by                       value                           read by
- *   wh_rig_pulse() before it     pulses, busy, decides           all parts
- *   wh_rig_load() before it      loads, the measurement's load   measure()
+ *   earlier wh_rig_pulse()       pulses, busy, decides           all parts
+ *   earlier wh_rig_load()        loads, the measurement's load   measure()
  *   observe()                    observer, busy, loads           compensation_V(), measure()
  *   watch()                      guard.trip                      follow_trip(), command_of()
  *   step_run()                   run.phase, run.volts            measure(), command_of()
@@ -619,7 +619,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     step_run(config, rig, inputs);
-    /* before measure(), because a trip makes its work useless */
+    /* before measure(), because its work is useless after a trip */
     follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {
         rig->busy = true;
@@ -666,7 +666,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* If the rotor slows down over the top, speed.h assumes a gap and keeps the old speed. */
+    /* If the rotor passes the top slowly, speed.h takes the long interval for a gap and keeps an old, higher speed. */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;

@@ -83,10 +83,10 @@ typedef struct wh_rig_config {
     wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for the rotor to come to rest after a trip */
-    wh_real rest_max_s;    /* the same with the motor off, without a trip */
+    wh_real rest_max_s;    /* longest such wait after a run that ended without a trip */
     /* If true, the motor brakes at a run's end and after `stop`. After a trip or the stop input it always coasts. */
     bool stop_brakes;
-    /* A completed run coasts, and the free swing gives the sensors' positions; `stop` may brake. */
+    /* If true, a completed run coasts even if stop_brakes: the free swing gives the sensors' positions. */
     bool swings;
     bool host_loss_stops; /* a run ends if the host that gives the orders is lost */
     uint32_t host_max_s;  /* the host is lost after this time without an order; 0: never */
@@ -107,11 +107,11 @@ typedef struct wh_rig {
     /* The observer follows the rotor in this run, and gravity is compensated as soon as the observer is valid. */
     bool compensated;
     bool busy;    /* this step has processed a pulse: other work waits */
-    bool decides; /* this step has a pulse that came after a suspect */
+    bool decides; /* this step has a pulse that decides about a suspect (pulses.h) */
     /* Samples since the last step. With more than one, the step has less time for other work. */
     uint8_t loads;
-    bool rested; /* after a trip: at_rest, or tripped_max_s is over */
-    /* After a trip: no pulses come. If the trip is for unreliable pulses, rest_max_s is also over. */
+    bool rested; /* after a trip: at_rest is true, or tripped_max_s is over */
+    /* True after a trip if no pulses come. If unreliable pulses caused the trip, rest_max_s must also be over. */
     bool at_rest;
     bool has_result; /* the last run has a result */
     wh_rig_end ended;
@@ -163,7 +163,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Sensor 1 is on the loading-train axis, sensor 2 a quarter turn later. The pulses come lead_rad before the sensors. */
+/* Sensor 1 is on the loading-train axis, sensor 2 a quarter turn later. Each pulse comes lead_rad before the sensor. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
 /* The torque line of a brushed motor; all numbers are > 0. */
@@ -177,10 +177,10 @@ typedef struct wh_rig_motor {
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
 
 /* Scale the configuration to this motor: gains, spin-up, supply, bounds of the guard, damping, gravity compensation.
- * The observer's scene keeps its motor, so call this only once. */
+ * Call this only once, because the configuration must still be that for the motor in the observer's scene. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* Limit the speed between pulses to the motor's no-load speed at guard.supply_max_V. Call it after that changes. */
+/* Set impossible_radps to the motor's no-load speed at guard.supply_max_V. Call this after that voltage changes. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
 /* Start idle, motor off; the rotor may be moving. If `before`, which may be NULL, has a trip, start tripped. */
@@ -205,7 +205,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
  *
  * Almesallmy (2006), I.3.2.2 and I.3.5: the load cell is between the shaft's pin and the carriage. It measures M/(M +
  * m) of the force on a fixed mount, with M the carriage's mass and m the eccentric mass. The carriage moves to and fro
- * with the amplitude X = S/(M + m) at any speed. */
+ * with the amplitude X = S/(M + m) at any speed. S is the unbalance. */
 
 typedef struct wh_carriage {
     wh_real disc_m; /* distance of the discs' centres from the shaft */
@@ -215,8 +215,8 @@ typedef struct wh_carriage {
 /* Change a copy of wh_rig_standard to the rig on that carriage, without observer and gravity compensation. */
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 
-/* Returns the displacement amplitude of the carriage, m; 0 for a fixed mount. It is F/(M <w^2>), with the cell's force
- * F and the mean <w^2> of the squared speed over the angle. */
+/* Returns the displacement amplitude X of the carriage, m; 0 for a fixed mount. X = F/(M <w^2>): F is the amplitude of
+ * the cell's force, M the carriage's mass, and <w^2> the mean of the squared speed over the angles of a turn. */
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force);
 

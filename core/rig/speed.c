@@ -39,7 +39,7 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
-        /* After one gap the speed stays. A second gap in succession shows that the speed was wrong. */
+        /* The speed stays known after one gap. A second gap in succession shows that it was wrong. */
         speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         begin(speed, sensor);

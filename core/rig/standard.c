@@ -46,13 +46,12 @@ const wh_rig_config wh_rig_standard = {
               .silence_max_s = WH_R(0.5),
               .slow_silence_max_s = WH_R(2.0),
               .load_silence_max_s = WH_R(0.02), /* ten samples */
-              /* a tenth of the force of the masses */
               .load_still_kgm = WH_R(0.1) * WH_RIG_UNBALANCE_KGM,
-              .stuck_pulses = 3, /* from the first to the third is a whole turn */
+              .stuck_pulses = 3, /* three successive pulses span a whole turn */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),
-              /* half of 2 pi c/I, for six times the configured inertia */
+              /* half of the loss 2 pi c/I: c is the damping, I six times the configured inertia */
               .braked_radps =
                   WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
               .hand_radps = RPM(60.0)},
@@ -177,7 +176,7 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
 
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force) {
-    /* <w^2>, from the expected force */
+    /* mean of the squared speed, from the expected force */
     const wh_real square = force->expected_N / (config->measure.result.mount_factor *
                                                 config->measure.rotor.unbalance_kgm);
     return square > WH_R(0.0)

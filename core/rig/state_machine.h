@@ -58,7 +58,7 @@ WH_C_BEGIN
 /* How the last run ended: X(name, words). Reset at the next start. */
 #define WH_END_ROWS(X) \
     X(WH_END_NONE, "none") /* no run since the reset, or a run in progress */ \
-    X(WH_END_DONE, "done") /* the record is measured */ \
+    X(WH_END_DONE, "done") \
     X(WH_END_STOP_INPUT, "stop input") \
     X(WH_END_DRIVE_FAULT, "drive fault") \
     X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* the two share a line */ \
@@ -76,7 +76,7 @@ typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refu
 #undef WH_REFUSAL_NAME
 
 typedef struct wh_rig_transition {
-    wh_rig_state next;  /* unless another condition refuses the event */
+    wh_rig_state next;  /* the state after the event, unless rig.c refuses the event */
     wh_refusal refusal; /* WH_ALLOWED, or the reason; `next` is then the present state */
 } wh_rig_transition;
 

@@ -6,8 +6,8 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* Returns sin(A/2) from the duration of half a swing divided by that of half a small swing, which is 2/pi K(sin(A/2)).
- * The table has A = 0, 30, ... 120, 150, 165, 175 deg. */
+/* Returns sin(A/2) of a swing with the amplitude A. `time` is the duration of half this swing divided by that of half a
+ * small swing: 2/pi K(sin(A/2)). The table has A = 0, 30, ... 120, 150, 165, 175 deg. */
 static wh_real sine_of_time(wh_real time) {
     static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
                                     WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
@@ -22,7 +22,7 @@ static wh_real sine_of_time(wh_real time) {
     return WH_R(1.0);
 }
 
-/* Returns sqrt(g) from the second shortest period of the last swings, or from the shortest of one or two. */
+/* Returns sqrt(g) from the second shortest of the last periods. If there are only one or two, uses the shortest. */
 static wh_real guess_root(const wh_swing *swing) {
     wh_real shortest_s = WH_R(100.0);
     wh_real second_s = WH_R(100.0);
@@ -36,7 +36,7 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* After more swings the last ones are smaller, and their period is nearer to that of a small swing. */
+    /* The period is longer than that of a small swing. The difference is smaller after more swings. */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
@@ -71,7 +71,7 @@ void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing) {
     }
 }
 
-/* Four times the mean of sin^2(q/2) from 0 to 90 deg. */
+/* Mean loss of the squared speed from hanging (q = 0) to 90 deg, divided by g: the mean of 4 sin^2(q/2). */
 #define FALLEN WH_R(0.727)
 
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
@@ -95,7 +95,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
     x[WH_FREE_GRAVITY] = gravity;
-    /* Each of the (2 passed + 1) quarter swings reduces the amplitude A by f/g. A is about 2.3 sin(A/2). */
+    /* (2 passed + 1) quarter swings reduce the amplitude A to 0, each by friction/gravity. A is about 2.3 sin(A/2). */
     x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_FREE_Q] =
