@@ -93,7 +93,7 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* The systems that a method can step, one bit for each wh_form. Bit 2: only accelerations that do not need rates. */
+/* The systems that a method can step, one bit for each wh_form. Bit 2: the accelerations must not depend on rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 WH_C_BEGIN

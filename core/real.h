@@ -128,7 +128,7 @@ typedef float wh_real;
     X(WH_E_ARGUMENT, -3, "an argument is out of range") \
     X(WH_E_UNDEFINED, -4, "an expression of a contact is not a finite number") \
     X(WH_E_SINGULAR, -5, "holds allow more than one motion") \
-    /* Compiler flags or the processor's modes would give other bits than all other builds have (arithmetic.h). */ \
+    /* Compiler flags or modes of the processor would change the results (arithmetic.h). */ \
     X(WH_E_ARITHMETIC, -6, "the arithmetic is not that of IEEE 754")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),

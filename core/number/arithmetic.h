@@ -2,8 +2,9 @@
  *
  * real.h refuses compiler flags that macros reveal. Other faults have no macro: contraction that the pragmas do not
  * reach, clang's -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, another
- * rounding mode. They change numbers that the compiler cannot evaluate in advance. The including file computes these
- * numbers with its own flags; scene.c compares them with references at every wh_scene_start(). */
+ * rounding mode. They change the numbers that wh_arithmetic() computes. The compiler cannot compute
+ * these in advance, because their arguments are volatile. scene.c compares them with references at every
+ * wh_scene_start(). */
 #ifndef WH_ARITHMETIC_H
 #define WH_ARITHMETIC_H
 
@@ -15,7 +16,7 @@
 
 /* The arguments of the checks, in flash (scene.c). */
 typedef struct wh_probes {
-    wh_real factor; /* 1 + r: rounding drops the last term of its square 1 + 2 r + r^2 */
+    wh_real factor; /* 1 + r, with r so small that the square 1 + 2 r + r^2 rounds to 1 + 2 r */
     wh_real square; /* 1 + 2 r */
     wh_real one;
     wh_real quarter_unit; /* a quarter of a unit in the last place of 1 */
@@ -34,16 +35,16 @@ typedef struct wh_probes {
 extern const wh_probes wh_probe;
 
 typedef enum wh_probed {
-    WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
+    WH_PROBED_PRODUCT,   /* not 0 if a product enters a sum unrounded (contraction or x87) */
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
-    WH_PROBED_ROUNDING,  /* an ulp of 1, unless sums are rounded twice, or in another mode */
+    WH_PROBED_ROUNDING,  /* 0 if sums are rounded twice or downwards; otherwise an ulp of 1 */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
-    /* 5/3, and the next two are 7/3 and 10/3: wrong if division is a product with a reciprocal */
+    /* 5/3, 7/3 and 10/3: wrong if the compiler multiplies by 1/3 instead of dividing by 3 */
     WH_PROBED_FIVE,
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
     WH_PROBED_THIRD,   /* the same check with a divisor that the compiler knows */
-    WH_PROBED_ZERO,    /* the sign of -0 + 0 is +, or - if the compiler drops the sum */
+    WH_PROBED_ZERO,    /* +0; it is -0 if the compiler drops the addition of 0 */
     WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
     WH_PROBED_LITERAL, /* 70, or another number if the compiler rounded the constant 0.1 to float */
     WH_PROBED_COUNT

@@ -7,8 +7,8 @@
  *      const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
  *      wh_real half = wh_flash_real(&table[1]);
  *
- * If WH_WORDS_FROM is defined (with a linker script that supports it: boards/atmega), constant strings stay in flash,
- * at addresses from WH_WORDS_FROM on, which no RAM has. Code that reads a string in flash or RAM uses wh_word_at(). */
+ * If WH_WORDS_FROM is defined (with a linker script that supports it: boards/atmega), constant strings stay in flash.
+ * Their addresses begin at WH_WORDS_FROM, above all RAM. Code that reads a string in flash or RAM uses wh_word_at(). */
 #ifndef WH_FLASH_H
 #define WH_FLASH_H
 

@@ -18,12 +18,12 @@
 
 WH_C_BEGIN
 
-/* Sine and cosine of a phase together; the compiler drops an unused one. Both are at most 1 in size, and exact at
- * quarter turns. Float: the error is at most 6.3e-8 for all 2^32 phases (`make sine-exhaustive` measures it). Double:
- * 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. */
+/* Sets *sine and *cosine, each at most 1 in size and exact at quarter turns. Float: the error is at most 6.3e-8 for all
+ * 2^32 phases (`make sine-exhaustive` measures it). Double: the error is at most 1.4e-16 for |phase| <= 5e8 rad. If
+ * |phase| is larger or NaN, *sine and *cosine are NaN. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* Sine and cosine as sums of two parts. A third term is added to the small part: the sum is then rounded only once. */
+/* The sine is sine + sine_rest. Add a further term to sine_rest first, because a small sum has a small round-off. */
 typedef struct wh_sine_parts {
     wh_real sine;
     wh_real cosine;
@@ -37,19 +37,19 @@ typedef struct wh_wave {
     wh_real cosine;
 } wh_wave;
 
-/* Converts radians to a phase, for arguments that are not turn angles. Float: within one phase unit (1.5e-9 rad) for
- * |rad| < 1e9; a larger argument or NaN gives phase 0. Double: returns rad. */
+/* Converts radians to a phase. Float: the error is at most one phase unit (1.5e-9 rad) if |rad| < 1e9. The phase of
+ * any other number, and of NaN, is 0. Double: returns rad. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
-/* Float: sets sine and cosine to NaN if rad is NaN or too large for a phase, which cannot represent NaN. So the float
- * build refuses such a step, as the double build does. */
+/* Float: sets *sine and *cosine to NaN if rad is NaN or out of the range of wh_phase_from_rad(), because a phase cannot
+ * be NaN. So the float build refuses such a step, as the double build does. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
 /* Binary logarithm of the number of sectors in a turn; number of sectors in a quarter turn. */
 #define WH_SINE_BITS 7
 #define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
 
-/* Sines of the sectors' middles, for a turn and a quarter: the cosine is WH_SINE_QUARTER entries later. */
+/* Entry i is the sine at the middle of sector i. The cosine is WH_SINE_QUARTER entries later. */
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
@@ -108,20 +108,19 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const unsigned rest_bits = 32U - WH_SINE_BITS;
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
-    /* The angle from the sector's middle, times 2^7: shifting the sector number out leaves the right sign and 25
-     * significant bits. The constants include the scale, 2^39 per turn. */
+    /* y: the angle from the sector's middle, 2^39 per turn. Shifting the sector number out puts the sign on top. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
-    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. (0x1.921fb6p-37, -0x1.4ab89ep-112 and -0x1.3bd07p-74
-     * are not literals of C++11.) */
+    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The coefficients contain the scale of y. They are
+     * 0x1.921fb6p-37, -0x1.4ab89ep-112 and -0x1.3bd07p-74; C++11 has no such literals. */
     const float z = y * y;
     const float sin_r = y * (1.14290478e-11f + z * -2.48806948e-34f);
     const float cos_r_less_1 = z * -6.53088477e-23f;
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* Converts radians to a stored angle. Inline: for a phase, the compiler drops the high half. 2^32/(2 pi) is in
- * integers, because a float would round it: 683565276 - 1819212470/2^32 per rad, 1367130551/2^32 per 2^-31 rad. */
+/* Converts radians to a stored angle by integers, because a float would round 2^32/(2 pi). The factor of `whole` is
+ * 683565276 - 1819212470/2^32. The factor of `fraction`, which is in units of 2^-31 rad, is 1367130551/2^32. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */

@@ -36,8 +36,8 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 
 #endif
 
-/* Sets the int32_t `result` to the float `steps`, rounded to nearest, ties to even, by one instruction. Those of x86
- * and Arm's VFP use the rounding mode that arithmetic.h tests. */
+/* Sets the int32_t `result` to the float `steps`, rounded to nearest, ties to even, by one instruction. On x86 and
+ * Arm's VFP, this instruction uses the current rounding mode, which arithmetic.h tests. */
 #if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
 #define WH_ROUND(result, steps) \
     float whole; /* holds the integer's bits: the result is in a float register */ \
@@ -51,8 +51,8 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_ROUND(result, steps) __asm__("fcvt.w.s %0, %1, rne" : "=r"(result) : "f"(steps))
 #endif
 
-/* Constants of generated code. An angle or phase: radians for the double build, `units` (2^32 per turn) for the float
- * build. A factor: `real` for the double build, `whole` and `part` for the float build. */
+/* Constants of generated code. WH_TURN() is an angle or a phase: `rad` in the double build, `units` (2^32 per turn) in
+ * the float build. WH_FACTOR() is a wh_factor: `real` in the double build, `whole` and `part` in the float build. */
 #if WH_DOUBLE
 #define WH_TURN(rad, units) (rad)
 #else
@@ -93,7 +93,7 @@ WH_INLINE int32_t wh_whole(float steps) {
 #endif
 }
 
-/* Returns the whole number nearest to steps/2, from the whole part of `steps`, ties away from zero. */
+/* Drops the fraction of `steps` and returns half of the rest, rounded to nearest, ties away from zero. */
 WH_INLINE int32_t wh_half_whole(float steps) {
     const int32_t whole = (int32_t)steps;
     /* gcc and clang define >> of a negative number: it keeps the sign */
@@ -115,7 +115,7 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     return true;
 }
 
-/* wh_phase_move() by half of `steps`: to the middle of a step that moves by `steps`. */
+/* Like wh_phase_move(), but moves by steps/2, to the middle of the step. */
 WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -135,7 +135,7 @@ WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
     return phase;
 #else
     const int64_t way = (int32_t)(phase - wh_phase_of(angle));
-    return (wh_angle)((uint64_t)angle + (uint64_t)way); /* wraps as the angle does */
+    return (wh_angle)((uint64_t)angle + (uint64_t)way); /* unsigned, because it may wrap */
 #endif
 }
 

@@ -1,5 +1,5 @@
-/* two_part.h: constants as sums of two reals. Part of step.h. In float, a step of a millisecond stored as one real
- * would have the same relative error of 4.7e-8 in every step, which compensated sums would not remove. */
+/* two_part.h: constants as sums of two reals. Part of step.h. A step of 1 ms stored as one float has a relative error
+ * of 4.7e-8. Compensated sums cannot remove this error, because it is the same in every step. */
 #ifndef WH_TWO_PART_H
 #define WH_TWO_PART_H
 

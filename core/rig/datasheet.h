@@ -30,8 +30,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 
 #define WH_RIG_SENSORS 2U /* slot sensors */
 
-/* Mass of two sets of arm and disc: an arm has 0.152 lb and is 7.25 in long, a disc has 0.15 lb. Disc centres are 6.5
- * in from the shaft, or disc_m metres in the macros with that argument. */
+/* Mass of two sets. Each has an arm of 0.152 lb and 7.25 in, and a disc of 0.15 lb. The disc's centre is 6.5 in from
+ * the shaft, or disc_m metres in a macro with this argument. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 
@@ -41,8 +41,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
      WH_R(0.45359237))
 #define WH_RIG_UNBALANCE_KGM WH_RIG_UNBALANCE_AT_KGM(WH_RIG_DISC_RADIUS_M)
 
-/* Inertia of all rotating parts: two sets with the arm as a slender rod and the disc as a point, and an assumed 5e-4 kg
- * m^2 for motor, couplings and shafts. */
+/* Inertia of all rotating parts. Each set is a slender rod (the arm) and a point mass (the disc). Motor, couplings and
+ * shafts are assumed to have 5e-4 kg m^2. */
 #define WH_RIG_INERTIA_AT_KGM2(disc_m) \
     (WH_R(2.0) * \
          (WH_R(0.152) * (WH_R(17.520833333333332) * WH_R(0.0254) * WH_R(0.0254)) + \
@@ -55,7 +55,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 
-/* Damping of the mean speed over a turn: the slope of the torque line plus 0.001 N m s for the bearings. */
+/* Damping of the rotor: the loss of motor torque per rad/s, plus 0.001 N m s for the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
 
 #define WH_RIG_RATED_V WH_R(24.0)
@@ -65,13 +65,13 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 /* Speed of the measurement (I.3.2.1): 5.5 turns a second. */
 #define WH_RIG_NOMINAL_RPM WH_R(330.0)
 
-/* Speed at the endurance limit of a 1/4 in shaft (docs/rig.md derives 416 rpm), rounded down. The guard stops the rig
+/* Speed at the endurance limit of a 1/4 in shaft (416 rpm: docs/dev/rig.md), rounded down. The guard stops the rig
  * above it. Set-points stay a tenth below it, for the loop's overshoot. */
 #define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
-/* Smallest set-point. Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse comes too late
- * for the control loop (docs/rig.md). The set-point is a sixth higher, because the speed dips below it. */
+/* Smallest set-point. The rotor needs 148 rpm at the bottom to pass the top against gravity (docs/dev/rig.md), and its
+ * speed can dip below the set-point. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
 /* Smallest set-point with gravity compensation (gravity_compensation.h). */

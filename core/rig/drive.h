@@ -21,7 +21,7 @@ typedef struct wh_drive {
     wh_real integral_V;     /* integral part of the voltage, from 0 to the supply */
 } wh_drive;
 
-/* Start with set-point and integral at the present speed and voltage, so that the voltage does not jump. */
+/* Sets target and set-point to the present speed. The integral becomes `volts`, so that the voltage does not jump. */
 void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);
 
 /* Does one control step of step_s seconds: moves the set-point towards the target and returns the new voltage, 0 to

@@ -35,7 +35,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     if (swing->result.why != WH_SWING_SWINGS) {
         return;
     }
-    /* The second of two successive pulses of a sensor comes in the opposite direction. */
+    /* Two successive pulses of the same sensor mean that the rotor has reversed between them. */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
         /* A swing backwards cannot get over the top: a pulse was lost, and the rotor turns forwards. */
@@ -82,13 +82,13 @@ static bool advance(wh_swing *swing) {
 /* From this pass on, pulses with a large residual are skipped. In earlier passes they make take() return false. */
 #define SURE_PASSES SOFT_PASSES
 
-/* Returns the rotor's angle from hanging at a pulse. `lead` is 0 if it turns forwards, twice lead_rad if backwards. */
+/* Returns q at a pulse of `sensor` (0: the arms hang). `lead` is 0 if the rotor turns forwards, else 2 lead_rad. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->pulse_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Returns to the first passage of the bottom. From there later pulses are reached forwards, earlier ones backwards. */
+/* Puts the integration at the first backward passage of the bottom. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(&swing->way,
@@ -98,7 +98,7 @@ static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor,
 
 static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
                        wh_swing *swing) {
-    wh_real left[WH_NORMAL_UNKNOWNS]; /* unknowns minus the guess */
+    wh_real left[WH_NORMAL_UNKNOWNS];
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
@@ -130,8 +130,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Least amplitude, rad, and least amplitude as a multiple of f/g. Below either limit, friction stops the rotor within a
- * swing or two. */
+/* Least amplitude: in rad, and as a multiple of x[WH_FREE_FRICTION]/x[WH_FREE_GRAVITY]. Below either limit, friction
+ * stops the rotor within a swing or two. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -173,7 +173,6 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
-    /* The misfit needs more pulses than unknowns. */
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
@@ -226,7 +225,7 @@ static wh_swing_piece move(wh_swing *swing) {
     return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
 }
 
-/* Takes a pulse and selects the next one: first later pulses, then, back from the first passage, earlier ones. */
+/* Adds a pulse and selects the next: first the pulses after swing->first, then, backwards in time, those before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
     const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* -1 wraps to a large index */
@@ -370,7 +369,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Least pivot. Round-off may lose the prior's 1 in a large diagonal entry. */
+/* Least pivot. Exact pivots are at least 1, because of the prior, but round-off in a large entry may lose this 1. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {
