@@ -9,7 +9,7 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* Factor on the round-off bound, which omits the round-off of the sums of a step and of library functions. */
+/* Factor on the round-off bound, because the bound omits the round-off of library functions and of a step's sums. */
 #define ROUNDING_ROOM 8.0
 /* Least range of a rate, as a part of its magnitude: float cannot resolve a thousandth of the variation of a rate of
  * 34.56 rad/s that varies by 0.007. Positions have no least range, because their origin is arbitrary. */
@@ -21,8 +21,8 @@
 #define FLOAT_STAYS 3e-7 /* in float, a range up to this part of the magnitude is round-off */
 #define BESIDE_OTHERS 1e-3
 #define STARTS 1e-12 /* a computed start value up to this, in SI units, counts as zero */
-/* Both runs may have the same round-off if its bound exceeds BOUND_OVER times the error to be detected. A bound is
- * about 20 times the round-off; 8 times if the round-off is equal at all states, as of a root that hardly changes. */
+/* Both runs may have the same round-off if the bound on it exceeds BOUND_OVER times the error to be detected. The bound
+ * is about 20 times the round-off. If the round-off is the same at all states, the bound is only 8 times as large. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -50,7 +50,7 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off, as large as `least`? In a constant column also as large as least_size()? */
+/* Can both runs share a round-off above `least`? In constant columns, the bound on it must exceed least_size(), too. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
@@ -128,14 +128,14 @@ void horizon_free(horizon *h) {
 
 /* === aliasing ==================================================================================== */
 /* Detects forcing that aliases with the step. In steps of 4 ms, and of 2 ms, a force of 1 kHz has the same value at
- * every stage, like a constant force. The run and its finer run agree, and are wrong. So a third run covers their
- * trusted span in a prime number of steps. It samples the force at varying phases, and ends in another state. */
+ * every stage, like a constant force. The run and its finer run agree, and are wrong. So a third run takes a prime
+ * number of steps in the span on which they agree. It samples other phases of the force, so its last state differs. */
 
-/* Steps of the third run per step of the run: above one for accuracy, and far from simple ratios. */
+/* The third run has about STEPS times the steps of the run: more for accuracy, and no simple ratio. */
 #define STEPS 1.41
-/* Allowance for the third run's own error, as a multiple of the difference between the run and the finer run. */
+/* The third run may have an error of ITS_OWN times the difference between the run and the finer run. */
 #define ITS_OWN 2.0
-#define ALIKE 1e-9 /* a smaller difference, in SI units, does not count */
+#define ALIKE 1e-9 /* constant part of the allowed difference, in SI units */
 
 static bool is_prime(uint64_t n) {
     for (uint64_t i = 3; i * i <= n; i += 2) {
@@ -190,7 +190,7 @@ static void compare(step_doubling *t, const horizon *h, const double *now, const
     }
 }
 
-/* The number of steps until the first column becomes inaccurate, compared with the finer run. */
+/* The number of the run's steps in which all columns are accurate. */
 static uint64_t trusted_steps(const step_doubling *t, const horizon *h) {
     const image *im = t->shape->image;
     double until_s = t->end_s;
@@ -358,7 +358,7 @@ static const char *cut_by(const step_doubling *t) {
                : "after that a step, of this run or of the finer one, jumped over a pole of an expression";
 }
 
-/* Prints the time until which the run is accurate, and what happens then. `end`: prints the end of the run, too. */
+/* Prints the time until which the run is accurate, and why not longer. If `end`, also prints the end of the run. */
 static void say_until(FILE *out, const horizon *h, bool end) {
     const step_doubling *t = h->of;
     char name[NAME_SIZE];

@@ -1,6 +1,6 @@
 /* horizon.h: the time until which each coordinate of a run is accurate to a tolerance, by step doubling
- * (step_doubling.h). It ends when the two runs first differ by more than the tolerance times the coordinate's range in
- * the finer run. Measured in docs/dev/stability.md. */
+ * (step_doubling.h). After this time, the two runs differ by more than the tolerance times the coordinate's range.
+ * Measurements: docs/dev/stability.md. */
 #ifndef CHECK_HORIZON_H
 #define CHECK_HORIZON_H
 
@@ -22,11 +22,11 @@ typedef enum horizon_verdict {
 
 typedef struct horizon_column {
     horizon_verdict verdict;
-    /* Largest minus least value, in the column's unit. For a column whose rate is not in the state, at least 1e-3
-     * (double: 1e-9) of its largest magnitude. */
+    /* Largest minus least value, in the column's unit. If the column's rate is not in the state, the range is at
+     * least 1e-3 of the column's largest magnitude (in double, 1e-9). */
     double range;
     double rounding; /* bound on the round-off in the finer run */
-    double off;      /* largest difference of both runs, plus the finer run's own error */
+    double off;      /* largest difference between the two runs, times step_doubling.left_out */
     double until_s;  /* time of the last comparison within the tolerance, or the end of the run */
 } horizon_column;
 
@@ -52,9 +52,9 @@ void horizon_free(horizon *h);
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */
-/* Prints until when each coordinate and rate is accurate, and the balances. `b`: NULL for a system without energies. */
+/* Prints the time until which each column is accurate, and the balances. `b`: NULL if the system has no energies. */
 void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance);
-/* Prints one line for a summary. `doubted`: a finding against the run may affect the finer run, too. */
+/* Prints one line for a summary. `doubted`: a warning names an error that the finer run may share. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
 extern const char *const horizon_words[];
 /* Writes CSV: a header, and a row for each coordinate and rate. */

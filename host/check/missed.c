@@ -332,7 +332,7 @@ static jet value_of(const taylor_bounds *a, const spot *p, const op *o) {
     return no_jet;
 }
 
-/* Narrows the bounds over the part by those at its middle. */
+/* Narrows the bounds over the part by Taylor forms about its middle. */
 static void cut(jet *part, const jet *middle, double half) {
     const enclosure way = {-half, half};
     const enclosure bend = {0.0, enclosure_above(0.5 * half * half)};
@@ -364,7 +364,7 @@ static void taylor_bounds_way(taylor_bounds *a, const double *from, const double
     a->glanced = false;
 }
 
-/* Encloses a function from a to b that deviates by at most `bend` from the straight line. */
+/* Encloses a function with the values a and b at its ends. `bend`: its largest distance from the line between them. */
 static enclosure between(double a, double b, double bend) {
     return (enclosure){enclosure_below(number_least(a, b) - bend),
                        enclosure_above(number_most(a, b) + bend)};
@@ -391,7 +391,7 @@ static void go(taylor_bounds *a, double low, double high) {
         const double most = number_most(fabs(curve[0]), fabs(curve[2]));
         const enclosure slopes_on = between(slope[0], slope[2], bend * fabs(third));
         const enclosure curves = between(curve[0], curve[2], 0.0);
-        /* positions are enclosed to their round-off: the state is not known more exactly */
+        /* the state has round-off, so each position is an interval as wide as its round-off */
         const jet middle_rate = {{enclosure_of(slope[1]), enclosure_of(curve[1]), unknown}};
         const jet part_rate = {{slopes_on, curves, enclosure_of(third)}};
         a->middle.position[i] = (jet){{enclosure_about(at[1], 0), middle_rate.f[0], unknown}};
@@ -401,8 +401,8 @@ static void go(taylor_bounds *a, double low, double high) {
     }
 }
 
-/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: jets of an
- * operation. CALLED: jets of a function or power. */
+/* Costs, as numbers of list operations. BOUNDS: natural bounds of an operation. WAY: position and rate of a coordinate.
+ * FORM: both jets of an operation. CALLED: both jets of a function or power. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 /* Natural bounds of one result on the whole path: a quick test. */
@@ -448,7 +448,7 @@ static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
     return a->middle.of[a->list->result[result]].f[0];
 }
 
-/* A bound on the result's change over the whole path, if slope and curvature were those of this part. */
+/* Bounds the result's change over the whole path, as if this part's slope and curvature applied to all of it. */
 static double taylor_bounds_change(const taylor_bounds *a, int result) {
     const int of = a->list->result[result];
     const double slope = enclosure_size(a->middle.of[of].f[1]);
@@ -460,29 +460,29 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 #define HALVINGS 24    /* most halvings of a path */
 #define PARTS_MOST 400 /* most parts of a path that are tested for one contact or coordinate */
-/* A negative margin() is a mere touch if its size is below TOUCH times the larger margin at the ends, and below TOUCH
- * times its change over the path. It is round-off below WIDTHS times the width of the bounds at the part's middle. */
+/* A negative margin() of size x is a mere touch if x is below TOUCH times the larger margin at the ends, and below TOUCH
+ * times its change over the path. It is round-off if x is below WIDTHS times the width of the bounds at the middle. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
 /* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends. It
- * must also be able to change the rate by TURNS times the rate within the path. */
+ * must also suffice to change the rate, within the path, by TURNS times the larger of the rates at the ends. */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* A gap has an edge if its slope changes by more than EDGE times the slope within 2^-EDGE_HALVINGS of a path. */
+/* A gap's slope jumps if its change on 2^-EDGE_HALVINGS of a path exceeds EDGE times the sum of those at both ends. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 
 struct missed {
     const image *image;
-    taylor_bounds *signals; /* of gaps, conditions, rates and values; NULL without contacts */
+    taylor_bounds *signals; /* of the list IMAGE_SIGNALS; NULL if there are no contacts */
     taylor_bounds *accel;   /* of the accelerations; NULL if not needed */
     bool hills;             /* the accelerations may have a narrow peak */
-    bool smooth;            /* the accelerations have no kink: undecided peaks are reported, too */
+    bool smooth;            /* no acceleration has a kink; else no undecided peak is reported */
     bool edges;             /* a gap may have an edge */
     taylor_bounds *laws;    /* of the contact laws, for edges and moving friction limits; or NULL */
     int *mode;              /* [contacts] before the step */
     int *mode_to;           /* [contacts] after the step */
-    double most[IMAGE_COMPONENTS_MAX]; /* larger accelerations are hidden */
+    double most[IMAGE_COMPONENTS_MAX]; /* a larger acceleration is hidden */
     const engine_piece *piece;         /* the present path */
     double size;                       /* the larger of the margins at the ends of the path */
     int parts;                         /* number of parts tested so far */
@@ -567,7 +567,7 @@ typedef int looking(missed *m, int k, double low, double high, double bar);
 /* Contacts shorter than the finest part are not searched. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
-/* `beyond`: a negative margin up to this size is the error of a located event, and does not count. */
+/* A negative margin up to the size `beyond` does not count: it is the error of a located event at an end. */
 static int look_contact(missed *m, int k, double low, double high, double beyond) {
     taylor_bounds_look(m->signals, 2 * k, low, high);
     const enclosure middle = margin(m, k, taylor_bounds_middle(m->signals, 2 * k));
@@ -663,7 +663,7 @@ static double middle_of(taylor_bounds *a, int result) {
     return 0.5 * e.low + 0.5 * e.high;
 }
 
-/* Friction k: each number is the larger of those at both ends of the path. */
+/* Quantities of friction k. Each is the larger of its values at the two ends of the path. */
 typedef struct met {
     double turns; /* acceleration per unit of friction force */
     double load;  /* friction force that sticking needs; infinite if other contacts act */
@@ -697,7 +697,7 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Inside the path, is a sliding friction's limit far above that at its ends, or a sticking one's too small to stick? */
+/* Inside the path, is the limit of friction k far larger than at the ends (if k slides), or too small (if k sticks)? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -788,7 +788,7 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* Finds a coordinate with a hidden acceleration on the path. Below DBL_MIN it is underflow, as of a body at rest. */
+/* Finds a coordinate with a hidden acceleration on the path. An acceleration below DBL_MIN is underflow. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;

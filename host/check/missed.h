@@ -20,7 +20,7 @@
 
 typedef struct missed missed;
 
-/* NULL: the image has no contacts, and no accelerations that may have a narrow peak. */
+/* Returns NULL if the image has no contacts, and its accelerations cannot have a narrow peak. */
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
 /* what: index of the missed contact, or number of contacts plus index of the coordinate of a missed force; -1: none. */
@@ -31,7 +31,7 @@ typedef struct missed_found {
 } missed_found;
 #define MISSED_NOTHING ((missed_found){-1, false, false})
 
-/* Call it at the start and after each step, with the state `to`. `from`: the state before the step; NULL: unknown, so
+/* Call it at the start and after each step. `to`: the present state. `from`: the state before the step; if it is NULL,
  * the step is not tested. `eventful`: the step had events. */
 missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, const double *from,
                           const double *to, bool eventful);

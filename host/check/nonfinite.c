@@ -109,7 +109,7 @@ static void look_here(blamed *v, const nonfinite_at *at) {
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         for (int k = 0; k < u->order && k < u->starts; k++) {
-            v->state[i][k] = u->start[k]; /* recovered coordinates keep their start */
+            v->state[i][k] = u->start[k]; /* remains if the state has no such component */
         }
         v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
     }
@@ -209,7 +209,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     return sine ? hint : hint_domain;
 }
 
-/* Reports the first expression that is not finite, of the `count` questions from `first` on. */
+/* Looks at `count` questions from index `first` on. Reports the first whose number is not finite. */
 static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
     const image_diagnostics *b = &v->image->diagnostics;
     for (int i = first; i < first + count; i++) {
@@ -225,7 +225,7 @@ static bool find(const blamed *v, const nonfinite_at *at, int first, int count, 
     return false;
 }
 
-/* Searches these questions at the last good state, and at states ahead along its rates. */
+/* Searches these questions at the last good state, and at later states extrapolated with its rates. */
 static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     bool found = false;

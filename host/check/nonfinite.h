@@ -6,7 +6,7 @@
 #include "host/engine/engine.h"
 
 /* === expressions at one state ================================================================= */
-/* The expressions of a file (image_diagnostics in host/image/image.h) at one state, node by node. */
+/* Evaluates the expressions of a scene (image_diagnostics in host/image/image.h) at one state. */
 
 typedef struct blamed {
     const image *image;
@@ -18,7 +18,7 @@ typedef struct blamed {
 blamed blamed_open(const image *im);
 void blamed_close(blamed *b);
 
-/* Sets the components of a state, as from engine_kind.state(); other values do not change. */
+/* Enters a state, as engine_kind.state() gives it, in b->state. Other entries of b->state do not change. */
 void blamed_place(blamed *b, const double *angle_rad, const double *real);
 /* The value of a node, from the values of its operands. */
 double blamed_node(const blamed *b, const diagnostics_node *n);
@@ -27,17 +27,17 @@ int blamed_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Largest angle with a sine, rad: in double, and in float (core/angle.h). Float's turn angles have no limit. */
+/* Largest argument of sine and cosine, rad (core/number/sine.h). In float, turn angles have no limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
-/* The state at which a failure is searched. Use an image made for a run: only that has the expressions as written. */
+/* Where to search for the cause of a failure. `image` must be made for a run; else it has no diagnostics. */
 typedef struct nonfinite_at {
     const image *image;
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
-    bool turns;              /* angles are integers (float), so their sines exist for all values */
-    double ahead_steps;      /* evaluates up to 2 ahead_steps steps after the state */
+    bool turns;              /* the run is in float: each turn angle is an integer and has a sine */
+    double ahead_steps;      /* 0: searches this state; 1: also states up to two steps later */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
