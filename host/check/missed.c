@@ -460,7 +460,7 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 #define HALVINGS 24    /* most halvings of a path */
 #define PARTS_MOST 400 /* most parts of a path that are tested for one contact or coordinate */
-/* A negative margin() of size x is a mere touch if x is below TOUCH times the larger margin at the ends, and below TOUCH
+/* A negative margin() of size x is a touch if x is below TOUCH times the larger margin at the ends, and below TOUCH
  * times its change over the path. It is round-off if x is below WIDTHS times the width of the bounds at the middle. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
