@@ -19,6 +19,10 @@ void write_error_say(const char *name) {
             reason == EBUSY ? "another whirl is writing it\nhint: use another file"
             : reason != 0   ? strerror(reason)
                             : "only a part was written");
+    const char *slash = strrchr(name, '/');
+    if (reason == ENOENT && slash != NULL) {
+        fprintf(stderr, "hint: mkdir -p '%.*s'\n", (int)(slash - name), name);
+    }
 }
 
 void atomic_file_not_whole(void) { failed = true; }

@@ -222,6 +222,7 @@ map='map --over step=1ms..2ms:2 --over m=1..2:2'
 for words in 'run --csv' 'run --columns' 'run --vcd' 'run --plot' 'plot --out' 'sweep --over step=1ms..2ms:2 --csv' "$map --csv" "$map --plot" \
     'price --csv' 'trust --csv' 'prove --csv' 'derive --as c --header'; do
     exits 2 '/nonexistent/x.svg: error: cannot be written' $words /nonexistent/x.svg epicyclic_from_rest --until 20ms
+    exits 2 "^hint: mkdir -p '/nonexistent/a b'\$" $words "/nonexistent/a b/x.svg" epicyclic_from_rest --until 20ms
     exits 2 'folder.svg: error: cannot be written' $words "$scratch/folder.svg" epicyclic_from_rest --until 20ms
     [ ! -c /dev/full ] || exits 1 'full.svg' $words "$scratch/full.svg" epicyclic_from_rest --until 20ms
 done
