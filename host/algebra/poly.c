@@ -303,6 +303,10 @@ void algebra_free(algebra *a) {
     free(a);
 }
 
+void *algebra_room(algebra *a, int count, size_t size) {
+    return arena_alloc(a->arena, (size_t)count * size);
+}
+
 bool algebra_overflow(const algebra *a) { return a->overflow; }
 
 uint64_t symbol_bit(const symbol *sym, int primes) {

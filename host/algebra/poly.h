@@ -5,7 +5,9 @@
 #include "host/algebra/normal_form.h"
 
 algebra *algebra_new(void);
-void algebra_free(algebra *a);
+void algebra_free(algebra *a); /* `a` may be NULL */
+/* Returns `count` zeroed elements, which algebra_free() frees. */
+void *algebra_room(algebra *a, int count, size_t size);
 
 /* Largest number of operands in an expression. It limits the time of functions that visit shared parts repeatedly. */
 #define POLY_SIZE_MAX 1e6

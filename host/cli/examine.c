@@ -310,7 +310,6 @@ static int examine_source(source_model *from, void *options) {
         } else {
             print_all(made.equations, found, form == 1);
         }
-        symmetries_free(found);
     }
     unload(&made);
     return code;

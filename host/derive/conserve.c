@@ -1,10 +1,8 @@
 /* conserve.c: the choice of recoverable coordinates, and their recovery. */
 #include "host/derive/conserve.h"
 
+#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
-
-#include "host/base/alloc.h"
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
 
@@ -24,7 +22,7 @@ static const char *influence_on(const equations *e, int i, place *at) {
             return each->kind == TERM_Q ? "the Q" : "the F";
         }
     }
-    for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0); k++) {
+    for (int k = 0; e->contacts != NULL && k < e->contacts->count; k++) {
         const contact_law *law = &e->contacts->law[k];
         if (contact_law_pushes(law, i)) {
             *at = law->from->at;
@@ -44,7 +42,7 @@ static bool influence_of(const equations *e, const symbol *q) {
                 (each->kind == TERM_Q || each->kind == TERM_F) &&
                 poly_contains(poly_from_expr(e->algebra, each->value), q, 0);
     }
-    for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0) && !found; k++) {
+    for (int k = 0; e->contacts != NULL && k < e->contacts->count; k++) {
         const poly *each;
         for (int i = 0; (each = contact_law_poly(e, k, i)) != NULL; i++) {
             found = found || poly_contains(each, q, 0);
@@ -215,7 +213,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     const int n = e->count;
     const int i = c->unknown[k];
     const poly *momentum = equations_fold(e, e->momentum[i]);
-    law->mass = alloc(n, sizeof(const poly *));
+    law->mass = algebra_room(e->algebra, n, sizeof(const poly *));
     law->momentum = at_start(e, momentum);
     for (int j = 0; j < n; j++) {
         double value;
@@ -253,11 +251,9 @@ static void make_potentials(const equations *e, conservation *c, momentum_law *l
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors) {
     const int n = e->count;
     momentum_law laws[CONSERVED_MAX] = {0};
-    conservation *c = alloc(1, sizeof *c);
-    c->unknown = alloc(n, sizeof *c->unknown);
-    c->number = alloc(n, sizeof *c->number);
-    c->rate = alloc(CONSERVED_MAX, sizeof(const poly *));
-    c->value = alloc(CONSERVED_MAX, sizeof(const poly *));
+    conservation *c = algebra_room(e->algebra, 1, sizeof *c);
+    c->unknown = algebra_room(e->algebra, n, sizeof *c->unknown);
+    c->number = algebra_room(e->algebra, n, sizeof *c->number);
     c->closed = true;
     bool good = true;
     for (int i = 0; i < n; i++) {
@@ -285,46 +281,19 @@ conservation *conservation_make(const equations *e, const bool *wanted, diags *e
         make_potentials(e, c, laws);
         recover(e, c, laws);
     }
-    for (int k = 0; k < CONSERVED_MAX; k++) {
-        free(laws[k].mass);
-    }
-    if (!good) {
-        conservation_free(c);
-        return NULL;
-    }
-    return c;
+    return good ? c : NULL;
 }
-
-void conservation_free(conservation *c) {
-    if (c == NULL) {
-        return;
-    }
-    free(c->unknown);
-    free(c->number);
-    free(c->rate);
-    free(c->value);
-    free(c);
-}
-
-typedef struct settlement {
-    const equations *equations;
-    const conservation *conservation;
-} settlement;
 
 static const poly *settled_value(void *context, algebra *a, const symbol *s, int primes) {
-    const settlement *of = context;
+    const conservation *c = context;
     (void)a;
-    if (s->kind != SYM_COORDINATE) {
+    if (s->kind != SYM_COORDINATE || c->number[s->index] < 0 || primes > 1) {
         return NULL;
     }
-    const int k = of->conservation->number[s->index];
-    if (k < 0 || primes > 1) {
-        return NULL;
-    }
-    return primes == 1 ? of->conservation->rate[k] : of->conservation->value[k];
+    return primes == 1 ? c->rate[c->number[s->index]] : c->value[c->number[s->index]];
 }
 
 const poly *conservation_settle(const equations *e, const conservation *c, const poly *p) {
-    settlement of = {e, c};
-    return c->count == 0 ? p : poly_substitute(e->algebra, p, settled_value, &of);
+    void *context = (void *)(uintptr_t)c;
+    return c->count == 0 ? p : poly_substitute(e->algebra, p, settled_value, context);
 }

@@ -13,24 +13,23 @@
 
 #include "host/derive/equations.h"
 
-typedef struct conservation {
-    int count;         /* unknowns recovered */
-    int *unknown;      /* [count] index of each in equations->unknowns */
-    int *number;       /* [equations->count] index of the unknown in unknown[], or -1 */
-    bool closed;       /* the coordinates follow from G(q); otherwise they are integrated */
-    const poly **rate; /* [count] the conserved rates as functions of the other rates */
-    /* [count] the conserved coordinates as functions of the other coordinates and time; NULL unless closed */
-    const poly **value;
-} conservation;
-
 #define CONSERVED_MAX 3 /* coordinates of one scene that are recovered from momenta */
+
+typedef struct conservation {
+    int count;    /* unknowns recovered */
+    int *unknown; /* [count] index of each in equations->unknowns */
+    int *number;  /* [equations->count] index of the unknown in unknown[], or -1 */
+    bool closed;  /* the coordinates follow from G(q); otherwise they are integrated */
+    const poly *rate[CONSERVED_MAX]; /* the conserved rates as functions of the other rates */
+    /* the conserved coordinates as functions of the other coordinates and time; NULL unless closed */
+    const poly *value[CONSERVED_MAX];
+} conservation;
 
 extern const symbol conservation_time; /* the symbol of time in value[] */
 
 /* Recovers the coordinates for which wanted[equations->count] is true (NULL: none). Returns NULL, reported, if the
- * momentum of such a coordinate is not conserved. */
+ * momentum of such a coordinate is not conserved. The equations own the result. */
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
-void conservation_free(conservation *c);
 
 /* Returns p with the conserved coordinates and rates replaced by their expressions. */
 const poly *conservation_settle(const equations *e, const conservation *c, const poly *p);

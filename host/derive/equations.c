@@ -5,10 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "host/base/alloc.h"
-
-static void contact_laws_free(contact_laws *laws);
-
 static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < m->coordinate_count; i++) {
@@ -21,7 +17,7 @@ static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
 
 static void make_constraint(algebra *a, const mechanism *m, const poly *held, contact_law *law) {
     const poly *zero = poly_number(a, 0.0);
-    law->row = alloc(m->coordinate_count, sizeof(const poly *));
+    law->row = algebra_room(a, m->coordinate_count, sizeof(const poly *));
     law->speed = rate_of(a, m, held);
     law->bias = zero;
     law->straight = true;
@@ -64,7 +60,7 @@ static void make_law(algebra *a, const mechanism *m, const contact_statement *fr
     }
     case CONTACT_WHEN:
         law->value = poly_from_expr(a, from->value);
-        law->set = alloc(from->set_count, sizeof(const poly *));
+        law->set = algebra_room(a, from->set_count, sizeof(const poly *));
         for (int i = 0; i < from->set_count; i++) {
             law->set[i] = poly_from_expr(a, from->sets[i].value);
         }
@@ -91,17 +87,16 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
 /* Adds a crossing for each friction whose normal force varies (contact_loosens()), up to CONTACTS_MAX contacts. */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
-    laws->loose = alloc(written, sizeof *laws->loose);
+    contact_statement *loose = algebra_room(a, written, sizeof *loose);
     for (int k = 0; k < written && laws->count < CONTACTS_MAX; k++) {
         const contact_statement *of = laws->law[k].from;
         if (of->kind == CONTACT_FRICTION && moves(a, m, poly_from_expr(a, of->normal))) {
-            contact_statement *h = &laws->loose[laws->loosening++];
-            *h = (contact_statement){.kind = CONTACT_WHEN,
-                                     .value = of->normal,
-                                     .normal = of->normal,
-                                     .effect = of->effect,
-                                     .at = of->at};
-            make_law(a, m, h, &laws->law[laws->count++]);
+            loose[k] = (contact_statement){.kind = CONTACT_WHEN,
+                                           .value = of->normal,
+                                           .normal = of->normal,
+                                           .effect = of->effect,
+                                           .at = of->at};
+            make_law(a, m, &loose[k], &laws->law[laws->count++]);
         }
     }
 }
@@ -110,8 +105,8 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
     const int most = 2 * m->contact_count + own; /* each friction may get a crossing */
-    contact_laws *laws = alloc(1, sizeof *laws);
-    laws->law = alloc(most, sizeof *laws->law);
+    contact_laws *laws = algebra_room(a, 1, sizeof *laws);
+    laws->law = algebra_room(a, most, sizeof *laws->law);
     for (int k = 0; k < CONTACT_KINDS; k++) {
         for (int i = 0; i < m->contact_count + own; i++) {
             const contact_statement *h =
@@ -125,31 +120,15 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
             laws->set_count += h->kind == CONTACT_WHEN ? h->set_count : 0;
         }
     }
-    if (laws->count == 0) {
-        contact_laws_free(laws);
-        return NULL;
-    }
     make_loosening(a, m, laws);
-    return laws;
-}
-
-static void contact_laws_free(contact_laws *laws) {
-    if (laws == NULL) {
-        return;
-    }
-    for (int k = 0; k < laws->count; k++) {
-        free(laws->law[k].row);
-        free(laws->law[k].set);
-    }
-    free(laws->loose);
-    free(laws->law);
-    free(laws);
+    return laws->count > 0 ? laws : NULL;
 }
 
 const poly *contact_law_poly(const equations *e, int k, int i) {
     const contact_law *law = &e->contacts->law[k];
-    const poly *const fixed[] = {law->value, law->speed, law->first, law->second, law->bias};
-    const int more = i - (int)(sizeof fixed / sizeof fixed[0]);
+    const poly *const fixed[LAW_POLYS] = {law->value, law->speed, law->first, law->second,
+                                          law->bias};
+    const int more = i - LAW_POLYS;
     if (more < 0) {
         return fixed[i];
     }
@@ -175,7 +154,7 @@ bool contact_laws_push(const contact_laws *laws, int i) {
 /* === the equations ============================================================================ */
 
 static statement_force force_of(algebra *a, const mechanism *m, const term *t) {
-    statement_force made = {t, alloc(m->coordinate_count, sizeof(const poly *)),
+    statement_force made = {t, algebra_room(a, m->coordinate_count, sizeof(const poly *)),
                             poly_number(a, 0.0)};
     const poly *value = poly_from_expr(a, t->value);
     for (int i = 0; i < m->coordinate_count; i++) {
@@ -193,7 +172,7 @@ static statement_force force_of(algebra *a, const mechanism *m, const term *t) {
 
 statement_force *forces_derive(algebra *a, const instance *inst, int *count) {
     const mechanism *m = inst->mechanism;
-    statement_force *forces = alloc(m->term_count, sizeof *forces);
+    statement_force *forces = algebra_room(a, m->term_count, sizeof *forces);
     *count = 0;
     for (int i = 0; i < m->term_count; i++) {
         const term *t = &m->terms[i];
@@ -202,13 +181,6 @@ statement_force *forces_derive(algebra *a, const instance *inst, int *count) {
         }
     }
     return forces;
-}
-
-static void forces_free(statement_force *forces, int count) {
-    for (int i = 0; i < count; i++) {
-        free(forces[i].force);
-    }
-    free(forces);
 }
 
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i) {
@@ -278,23 +250,7 @@ void equations_report_growth(const equations *e, diags *errors) {
     free(limit);
 }
 
-void equations_free(equations *e) {
-    if (e == NULL) {
-        return;
-    }
-    forces_free(e->force, e->forces);
-    free(e->unknowns);
-    free(e->mass);
-    free(e->velocity);
-    free(e->potential);
-    free(e->applied);
-    free(e->momentum);
-    free(e->conserved);
-    free(e->output);
-    contact_laws_free(e->contacts);
-    algebra_free(e->algebra);
-    free(e);
-}
+void equations_free(equations *e) { algebra_free(e != NULL ? e->algebra : NULL); }
 
 /* === the energy in the balance ================================================================ */
 

@@ -30,18 +30,16 @@ typedef struct contact_law {
 
 typedef struct contact_laws {
     int count;
-    int forced;               /* number of contacts that are not crossings; crossings come last */
-    contact_law *law;         /* [count] */
-    int set_count;            /* number of values that crossings set */
-    contact_statement *loose; /* [loosening] crossings added by Whirl: see contact_loosens() */
-    int loosening;
+    int forced;       /* number of contacts that are not crossings; crossings come last */
+    contact_law *law; /* [count] */
+    int set_count;    /* number of values that crossings set */
 } contact_laws;
 
 /* True for the crossing at which a friction's varying normal force reaches or leaves zero. It sets nothing. The force
  * has a kink there, which a step of fourth order must not span. */
 bool contact_loosens(const contact_statement *h);
 
-/* The active contacts of the instance, or NULL. */
+/* The active contacts of the instance, in the memory of the algebra, or NULL. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
 
 /* Can this contact, or any of these contacts, change the momentum of coordinate i? */
@@ -71,7 +69,7 @@ typedef struct unknown {
 } unknown;
 
 typedef struct equations {
-    algebra *algebra;
+    algebra *algebra; /* owner of all memory of the equations */
     const instance *instance;
     int count;         /* number of unknowns, and of equations */
     unknown *unknowns; /* [count] */
@@ -94,9 +92,11 @@ typedef struct equations {
     contact_laws *contacts; /* stops, holds, frictions, crossings; NULL without contacts */
 } equations;
 
-void equations_free(equations *e);
+void equations_free(equations *e); /* `e` may be NULL */
 
-/* Returns expression i of contact k: value, speed, first, second, bias, then row[] or a crossing's set[]; then NULL. */
+/* Returns expression i of contact k: LAW_POLYS ones (value, speed, first, second, bias), then row[] or a crossing's
+ * set[]; then NULL. */
+enum { LAW_POLYS = 5 };
 const poly *contact_law_poly(const equations *e, int k, int i);
 
 place equations_kinetic_place(const instance *inst);

@@ -96,28 +96,25 @@ static void start_components(image_draft *d) {
     }
 }
 
-static const char *momentum_unit(image_draft *d, const symbol *q) {
-    char si[DIM_TEXT_SIZE];
-    dimension dim = dim_none();
-    (void)dim_divide(dim_of(2, 1, -1, 0, 0), q->dim, &dim);
-    return image_text(d, dimension_unit(dim, false, si, sizeof si));
-}
-
 static void copy_unknowns(image_draft *d, const equations *e) {
     image *im = d->made;
     im->unknown = image_room(d, im->count, sizeof *im->unknown);
     for (int i = 0; i < im->count; i++) {
         const symbol *s = e->unknowns[i].symbol;
         image_unknown *u = &im->unknown[i];
-        *u = (image_unknown){.name = image_text(d, s->name),
-                             .text = image_text(d, s->text),
-                             .at = image_place(d, s->at),
-                             .is_angle = s->is_angle,
-                             .is_length = s->dim.twelfths[DIM_LENGTH] == DIM_DENOMINATOR,
-                             .conserved = e->conserved[i],
-                             .driven = s->driven != NULL,
-                             .order = e->unknowns[i].order,
-                             .momentum_si = momentum_unit(d, s)};
+        char momentum[DIM_TEXT_SIZE];
+        dimension dim = dim_none();
+        (void)dim_divide(dim_of(2, 1, -1, 0, 0), s->dim, &dim);
+        *u = (image_unknown){
+            .name = image_text(d, s->name),
+            .text = image_text(d, s->text),
+            .at = image_place(d, s->at),
+            .is_angle = s->is_angle,
+            .is_length = s->dim.twelfths[DIM_LENGTH] == DIM_DENOMINATOR,
+            .conserved = e->conserved[i],
+            .driven = s->driven != NULL,
+            .order = e->unknowns[i].order,
+            .momentum_si = image_text(d, dimension_unit(dim, false, momentum, sizeof momentum))};
         u->unit = image_room(d, u->order + 1, sizeof *u->unit);
         for (int primes = 0; primes <= u->order; primes++) {
             u->unit[primes] = image_unit_of(d, s, primes);
@@ -147,12 +144,6 @@ static void copy_quantities(image_draft *d, const program *p, const instance *in
     }
 }
 
-static const char *primed_name(image_draft *d, const char *name, int primes) {
-    char text[NAME_LENGTH_MAX + 16];
-    snprintf(text, sizeof text, "%s%.*s", name, primes, "''''''''''");
-    return image_text(d, text);
-}
-
 /* Returns the range of a symbol's derivative with `primes` primes. The range may be undeclared. */
 static image_range range_of(image_draft *d, const instance *inst, const char *name, place at,
                             const symbol *s, int primes) {
@@ -176,9 +167,10 @@ static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
         const bool real = i < im->reals;
         const component c = real ? im->real[i] : im->angle[i - im->reals];
         const image_unknown *u = &im->unknown[c.unknown];
+        char name[NAME_LENGTH_MAX + 16];
+        snprintf(name, sizeof name, "%s%.*s", u->name, c.primes, "''''''''''");
         *(real ? &im->range[i] : &im->angle_range[i - im->reals]) =
-            range_of(d, inst, primed_name(d, u->name, c.primes), u->at,
-                     e->unknowns[c.unknown].symbol, c.primes);
+            range_of(d, inst, image_text(d, name), u->at, e->unknowns[c.unknown].symbol, c.primes);
     }
     for (int i = 0; i < im->inputs; i++) {
         im->range[im->reals + i] = range_of(d, inst, im->input[i].name, im->input[i].at,
@@ -224,32 +216,29 @@ static void copy_layout(image_draft *d, const program *p) {
     im->angles = map->angles;
     im->reals = map->reals;
     im->inputs = map->inputs;
-    im->recovered = p->conserved->count;
+    im->recovered = map->conserved->count;
     im->angle = copy(d, map->angle, map->angles, sizeof *map->angle);
     im->real = copy(d, map->real, map->reals, sizeof *map->real);
     im->place = copy(d, map->place, im->count, sizeof *map->place);
     im->from_momentum =
-        copy(d, p->conserved->unknown, im->recovered, sizeof *p->conserved->unknown);
+        copy(d, map->conserved->unknown, im->recovered, sizeof *map->conserved->unknown);
     take_drives(d, map);
 }
 
 /* Makes the requested matrix, if any. Returns the image, or NULL (reported). */
 static image *with_matrix(image_draft *d, const equations *e, diags *errors) {
-    const bool good = d->made->settings.matrix == MATRIX_NONE || matrix_make(d, e, errors);
-    image *made = image_draft_done(d);
-    if (!good) {
-        image_free(made);
-        made = NULL;
+    if (d->made->settings.matrix == MATRIX_NONE || matrix_make(d, e, errors)) {
+        return d->made;
     }
-    return made;
+    image_free(d->made);
+    return NULL;
 }
 
 /* As image_make(), without variants. */
 static image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
                          image_use use, diags *errors) {
     program *p = program_make(e, conserve, settings, errors);
-    if (p == NULL || !program_look_up(p, errors)) {
-        program_free(p);
+    if (p == NULL) {
         return NULL;
     }
     image_draft *d = &p->draft;
@@ -263,7 +252,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     im->hash = program_hash(p);
     im->count = e->count;
     im->own_outputs = e->instance->mechanism->output_count;
-    im->outputs = im->own_outputs + 2 * p->conserved->count;
+    im->outputs = im->own_outputs + 2 * p->layout.conserved->count;
     im->has_energies = e->kinetic != NULL;
     im->has_integral = p->integral != NULL;
     im->mass_blur = e->mass_blur;
@@ -277,10 +266,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     if (use != IMAGE_TO_WRITE) {
         diagnostics_make(d, e);
     }
-    image *made = with_matrix(d, e, errors);
-    d->made = NULL;
-    program_free(p);
-    return made;
+    return with_matrix(d, e, errors);
 }
 
 image *image_again(const image *base, const instance *inst, diags *errors) {
@@ -306,7 +292,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
     if (im->settings.matrix == MATRIX_NONE || im->step_s == im->base->step_s) {
         im->list[IMAGE_MATRIX] = im->base->list[IMAGE_MATRIX];
         im->matrix = im->base->matrix;
-        return image_draft_done(&d);
+        return d.made;
     }
     return with_matrix(&d, NULL, errors);
 }

@@ -13,12 +13,6 @@ image_draft image_draft_new(void) {
     return d;
 }
 
-image *image_draft_done(image_draft *d) {
-    free(d->original);
-    free(d->copy);
-    return d->made;
-}
-
 void *image_room(image_draft *d, int count, size_t size) {
     return count > 0 ? arena_alloc(d->made->memory, (size_t)count * size) : NULL;
 }
@@ -34,8 +28,8 @@ static source *copy_source(image_draft *d, const source *from) {
     if (from->text != NULL) {
         made->text = arena_copy(d->made->memory, from->text, from->length);
     }
-    d->original = alloc_more(d->original, d->sources + 1, sizeof(const source *));
-    d->copy = alloc_more(d->copy, d->sources + 1, sizeof(source *));
+    d->original = arena_room(d->made->memory, d->original, d->sources, sizeof(const source *));
+    d->copy = arena_room(d->made->memory, d->copy, d->sources, sizeof(source *));
     d->original[d->sources] = from;
     d->copy[d->sources++] = made;
     return made;

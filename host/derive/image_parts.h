@@ -7,15 +7,13 @@
 
 typedef struct image_draft {
     image *made;
-    /* [sources] sources of places, and their copies in the image */
+    /* [sources] sources of places, and their copies; the arrays, too, are in the image's memory */
     const source **original;
     source **copy;
     int sources;
 } image_draft;
 
 image_draft image_draft_new(void);
-/* Frees the helper data, and returns the image. */
-image *image_draft_done(image_draft *d);
 
 /* Returns zeroed memory of the image, or NULL for count 0. */
 void *image_room(image_draft *d, int count, size_t size);

@@ -530,7 +530,9 @@ static bool derive_system(equations *e, diags *errors) {
     return good;
 }
 
-static const poly **polys(int count) { return alloc(count, sizeof(const poly *)); }
+static const poly **polys(algebra *a, int count) {
+    return algebra_room(a, count, sizeof(const poly *));
+}
 
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
@@ -552,36 +554,35 @@ static bool too_large(const equations *e) {
 equations *equations_derive(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
-    equations *e = alloc(1, sizeof *e);
+    algebra *a = algebra_new();
+    equations *e = algebra_room(a, 1, sizeof *e);
     e->folding = inst->folding;
     e->folding.way = folding_way();
     folding *const before_it = folding_use(&e->folding);
-    e->algebra = algebra_new();
+    e->algebra = a;
     e->instance = inst;
     e->count = n;
-    e->unknowns = alloc(n, sizeof *e->unknowns);
-    e->conserved = alloc(n, sizeof *e->conserved);
-    e->mass = polys(n * n);
-    e->velocity = polys(n);
-    e->potential = polys(n);
-    e->applied = polys(n);
-    e->momentum = polys(n);
-    e->output = polys(m->output_count);
+    e->unknowns = algebra_room(a, n, sizeof *e->unknowns);
+    e->conserved = algebra_room(a, n, sizeof *e->conserved);
+    e->mass = polys(a, n * n);
+    e->velocity = polys(a, n);
+    e->potential = polys(a, n);
+    e->applied = polys(a, n);
+    e->momentum = polys(a, n);
+    e->output = polys(a, m->output_count);
     for (int i = 0; i < n; i++) {
         e->unknowns[i] = (unknown){m->coordinates[i], 2};
     }
-    e->contacts = contact_laws_make(e->algebra, inst);
+    e->contacts = contact_laws_make(a, inst);
     bool good = m->is_system ? derive_system(e, errors) : derive_lagrange(e, errors);
     for (int i = 0; i < m->output_count && good; i++) {
-        e->output[i] = poly_from_expr(e->algebra, m->outputs[i]->value);
+        e->output[i] = poly_from_expr(a, m->outputs[i]->value);
     }
     if (good && too_large(e)) {
         equations_report_growth(e, errors);
         good = false;
     }
-    if (good) {
-        good = equations_check_solvable(e, errors);
-    }
+    good = good && equations_check_solvable(e, errors);
     (void)folding_use(before_it);
     if (!good) {
         equations_free(e);

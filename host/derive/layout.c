@@ -1,9 +1,7 @@
 #include "host/derive/layout.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-#include "host/base/alloc.h"
 #include "host/base/hashing.h"
 
 /* Adds noise to `node`. The output's name enters the seed, so that outputs with equal seeds have different noise. */
@@ -55,23 +53,19 @@ static int layout_turn(void *context, const symbol *s) {
     return moves ? map->angle_number[s->index] : -1;
 }
 
-/* The operation for an input. An input of an inactive effect cannot change, so it is a constant. */
-static int input_leaf(const layout *map, op_list *t, const symbol *s) {
-    for (int i = 0; i < map->inputs; i++) {
-        if (map->input[i] == s->index) {
-            return op_list_leaf(t, OP_INPUT, i);
-        }
-    }
-    return op_list_constant(t, map->equations->instance->input[s->index]);
-}
-
 static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     const layout *map = context;
     if (s == &conservation_time) {
         return op_list_leaf(t, OP_TIME, 0);
     }
     if (s->kind == SYM_INPUT) {
-        return input_leaf(map, t, s);
+        for (int i = 0; i < map->inputs; i++) {
+            if (map->input[i] == s->index) {
+                return op_list_leaf(t, OP_INPUT, i);
+            }
+        }
+        /* an input of an inactive effect cannot change */
+        return op_list_constant(t, map->equations->instance->input[s->index]);
     }
     if (s->kind == SYM_RECORD) {
         return record_leaf(map, s);
@@ -102,23 +96,18 @@ static int add_real(layout *map, int i, int primes) {
     return map->reals++;
 }
 
-/* Skips the inputs of inactive effects. */
-static void arrange_inputs(layout *map, const instance *inst) {
-    const mechanism *m = inst->mechanism;
-    map->input = alloc(m->input_count, sizeof *map->input);
+bool layout_arrange(layout *map, const poly *const *dynamics, int count) {
+    const equations *e = map->equations;
+    algebra *a = e->algebra;
+    const mechanism *m = e->instance->mechanism;
+    const int n = e->count;
+    int components = 0;
+    map->input = algebra_room(a, m->input_count, sizeof *map->input);
     for (int i = 0; i < m->input_count; i++) {
-        if (m->inputs[i]->effect < 0 || inst->with[m->inputs[i]->effect]) {
+        if (instance_has(e->instance, m->inputs[i]->effect)) {
             map->input[map->inputs++] = i;
         }
     }
-}
-
-bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
-                    const poly *const *dynamics, int count) {
-    const int n = e->count;
-    int components = 0;
-    *map = (layout){.equations = e, .conserved = conserved};
-    arrange_inputs(map, e->instance);
     bool second = map->conserved->closed;
     map->order_room = 1;
     for (int i = 0; i < n; i++) {
@@ -131,11 +120,11 @@ bool layout_arrange(layout *map, const equations *e, const conservation *conserv
     if ((second ? n : components) > IMAGE_COMPONENTS_MAX) {
         return false;
     }
-    map->angle = alloc(components, sizeof *map->angle);
-    map->real = alloc(components, sizeof *map->real);
-    map->place = alloc(n, sizeof *map->place);
-    map->angle_number = alloc(n, sizeof *map->angle_number);
-    map->real_number = alloc(n * map->order_room, sizeof *map->real_number);
+    map->angle = algebra_room(a, components, sizeof *map->angle);
+    map->real = algebra_room(a, components, sizeof *map->real);
+    map->place = algebra_room(a, n, sizeof *map->place);
+    map->angle_number = algebra_room(a, n, sizeof *map->angle_number);
+    map->real_number = algebra_room(a, n * map->order_room, sizeof *map->real_number);
     for (int i = 0; i < n; i++) {
         const symbol *s = e->unknowns[i].symbol;
         bool turns = s->is_angle && in_state(map, i, 0);
@@ -168,15 +157,6 @@ bool layout_arrange(layout *map, const equations *e, const conservation *conserv
         }
     }
     return true;
-}
-
-void layout_free(layout *map) {
-    free(map->input);
-    free(map->angle);
-    free(map->real);
-    free(map->place);
-    free(map->angle_number);
-    free(map->real_number);
 }
 
 const poly *layout_ready(const layout *map, const poly *p) {

@@ -35,11 +35,10 @@ typedef struct layout {
     lowering *recording;
 } layout;
 
-/* An angle that dynamics[count] contain only inside sines and cosines becomes a turn angle. Returns false if there are
- * too many components. */
-bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
-                    const poly *const *dynamics, int count);
-void layout_free(layout *map);
+/* Completes a layout that has only its equations and conserved coordinates. An angle that dynamics[count] contain only
+ * inside sines and cosines becomes a turn angle. Returns false if there are too many components. The equations own the
+ * arrays. */
+bool layout_arrange(layout *map, const poly *const *dynamics, int count);
 
 /* Makes p ready for a list: folds it, and replaces conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);

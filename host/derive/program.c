@@ -20,20 +20,6 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* Fills p[] (if not NULL) with the polys of the scene's contacts, ready for a list. Returns their number. */
-static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
-    int count = 0;
-    for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0); k++) {
-        const poly *each;
-        for (int i = 0; (each = contact_law_poly(e, k, i)) != NULL; i++, count++) {
-            if (p != NULL) {
-                p[count] = conservation_settle(e, c, equations_fold(e, each));
-            }
-        }
-    }
-    return count;
-}
-
 /* Returns a list that computes wanted[count], which layout_ready() has made ready. */
 static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     op_list *t = op_list_new(map->angles, count);
@@ -47,43 +33,39 @@ static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     return t;
 }
 
-static op_list *enter(layout *map, const poly *const *wanted, int count) {
-    const poly **p = alloc(count, sizeof(const poly *));
+/* As enter_ready(), but makes wanted[] ready first. */
+static op_list *enter(layout *map, const poly **wanted, int count) {
     for (int i = 0; i < count; i++) {
-        p[i] = layout_ready(map, wanted[i]);
+        wanted[i] = layout_ready(map, wanted[i]);
     }
-    op_list *t = enter_ready(map, p, count);
-    free(p);
-    return t;
+    return enter_ready(map, wanted, count);
+}
+
+/* Zeroed memory for polys, which the equations own. */
+static const poly **polys(const layout *map, int count) {
+    return algebra_room(map->equations->algebra, count, sizeof(const poly *));
 }
 
 static op_list *make_signals(layout *map) {
     const contact_laws *laws = map->equations->contacts;
-    const poly **wanted = alloc(2 * laws->count, sizeof(const poly *));
+    const poly **wanted = polys(map, 2 * laws->count);
     for (int k = 0; k < laws->count; k++) {
         wanted[2 * k] = laws->law[k].value;
         wanted[2 * k + 1] = laws->law[k].speed;
     }
-    op_list *t = enter(map, wanted, 2 * laws->count);
-    free(wanted);
-    return t;
+    return enter(map, wanted, 2 * laws->count);
 }
 
 static op_list *make_sets(layout *map) {
     const contact_laws *laws = map->equations->contacts;
-    if (laws->set_count == 0) {
-        return NULL;
-    }
-    const poly **wanted = alloc(laws->set_count, sizeof(const poly *));
+    const poly **wanted = polys(map, laws->set_count);
     int count = 0;
     for (int k = laws->forced; k < laws->count; k++) {
         for (int i = 0; i < laws->law[k].from->set_count; i++) {
             wanted[count++] = laws->law[k].set[i];
         }
     }
-    op_list *t = enter(map, wanted, count);
-    free(wanted);
-    return t;
+    return count > 0 ? enter(map, wanted, count) : NULL;
 }
 
 /* The list of the contacts' rows J and responses M^-1 J^T, with the same elimination as the accelerations. */
@@ -93,7 +75,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     const int stride = WH_LAW_ROWS + 2 * map->coordinates;
     op_list *t = op_list_new(map->angles, laws->forced * stride);
     int *pushed = alloc(n, sizeof *pushed);
-    const poly **row = alloc(n + 3, sizeof(const poly *));
+    const poly **row = polys(map, n + 3);
     linear_system load = *s;
     load.force = row;
     for (int k = 0; k < laws->forced; k++) {
@@ -124,7 +106,6 @@ static op_list *make_forces(layout *map, const linear_system *s) {
         lower_done(&l);
     }
     free(pushed);
-    free(row);
     op_list_prune(t);
     return t;
 }
@@ -317,14 +298,6 @@ static void add_statement(entries *to, const statement_force *of) {
     add_entry(to, drives ? LEDGER_WORK : LEDGER_LOSS, &of->from->at, 0, of->power);
 }
 
-static void order_accounts(image_ledger *l, const layout *map) {
-    int conserved = 1 + map->coordinates;
-    l->unknown[0] = -1;
-    for (int i = 0; i < map->equations->count; i++) {
-        l->unknown[map->place[i] >= 0 ? 1 + map->place[i] : conserved++] = i;
-    }
-}
-
 /* Adds the entries that change continuously between events. */
 static void smooth_entries(entries *to) {
     const equations *e = to->map->equations;
@@ -360,18 +333,21 @@ static void find_inputs(image_ledger *l, const layout *map) {
 
 static op_list *make_levels(const image_ledger *l, const poly *integral, layout *map) {
     const equations *e = map->equations;
-    const poly **wanted = alloc(l->accounts, sizeof(const poly *));
+    const poly **wanted = polys(map, l->accounts);
     wanted[0] = integral != NULL ? integral : poly_add(e->algebra, e->kinetic, e->stored);
     for (int account = 1; account < l->accounts; account++) {
         wanted[account] = e->momentum[l->unknown[account]];
     }
-    op_list *t = enter(map, wanted, l->accounts);
-    free(wanted);
-    return t;
+    return enter(map, wanted, l->accounts);
 }
 
-static bool can_keep(const layout *map, diags *errors) {
-    const mechanism *m = map->equations->instance->mechanism;
+/* Returns false after an error (reported). */
+static bool make_ledger(program *p, diags *errors) {
+    image *im = p->draft.made;
+    layout *map = &p->layout;
+    const equations *e = map->equations;
+    const mechanism *m = e->instance->mechanism;
+    image_ledger *l = &im->ledger;
     if (m->is_system) {
         diag_error(errors, m->at, "leave the ledger out: --without ledger",
                    "'%s' is given by equations: without energies it has no ledger", m->name);
@@ -383,25 +359,16 @@ static bool can_keep(const layout *map, diags *errors) {
             "with a ledger Whirl cannot compute a coordinate's rate from its conserved momentum");
         return false;
     }
-    return true;
-}
-
-/* Returns false after an error (reported). */
-static bool make_ledger(program *p, diags *errors) {
-    image *im = p->draft.made;
-    layout *map = &p->layout;
-    const equations *e = map->equations;
-    image_ledger *l = &im->ledger;
-    if (!can_keep(map, errors)) {
-        return false;
-    }
     const int most = e->count + e->forces * (1 + e->count);
-    entries to = {&p->draft, l, map, alloc(most, sizeof(const poly *))};
+    entries to = {&p->draft, l, map, polys(map, most)};
     l->accounts = 1 + e->count;
     l->unknown = image_room(&p->draft, l->accounts, sizeof *l->unknown);
     l->input = image_room(&p->draft, map->inputs, sizeof *l->input);
     l->entry = image_room(&p->draft, most, sizeof *l->entry);
-    order_accounts(l, map);
+    l->unknown[0] = -1;
+    for (int i = 0, conserved = 1 + map->coordinates; i < e->count; i++) {
+        l->unknown[map->place[i] >= 0 ? 1 + map->place[i] : conserved++] = i;
+    }
     smooth_entries(&to);
     find_inputs(l, map);
     l->entries = l->smooth + im->contacts * (1 + map->coordinates) + l->inputs;
@@ -413,11 +380,10 @@ static bool make_ledger(program *p, diags *errors) {
         /* in the rates of entries, an angle may also occur outside sines and cosines */
         l->turned = op_list_reads_turns(im->list[IMAGE_POWERS]);
     } else {
-        diag_error(errors, e->instance->mechanism->at, "leave the ledger out: --without ledger",
-                   "the ledger of '%s' has too many entries", e->instance->mechanism->name);
+        diag_error(errors, m->at, "leave the ledger out: --without ledger",
+                   "the ledger of '%s' has too many entries", m->name);
         *l = (image_ledger){.asked = l->asked};
     }
-    free(to.power);
     return l->kept;
 }
 
@@ -539,7 +505,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     const int first = keep ? n : 0;
     op_list *t = op_list_new(map->angles, first + count);
     int *highest = alloc(n, sizeof *highest);
-    const poly **folded = alloc(count + e->instance->mechanism->noise_count, sizeof(const poly *));
+    const poly **folded = polys(map, count + e->instance->mechanism->noise_count);
     lowering l = layout_lowering(map, t);
     solve_highest(&l, s, highest);
     map->highest = highest;
@@ -577,7 +543,6 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     map->highest = NULL;
     map->recording = NULL;
     free(highest);
-    free(folded);
     op_list_prune(t);
     return t;
 }
@@ -587,7 +552,7 @@ static op_list *make_observe(layout *map, const linear_system *s) {
     const equations *e = map->equations;
     const int own = e->instance->mechanism->output_count;
     const int count = own + 2 * map->conserved->count;
-    const poly **wanted = alloc(count, sizeof(const poly *));
+    const poly **wanted = polys(map, count);
     for (int i = 0; i < own; i++) {
         wanted[i] = e->output[i];
     }
@@ -596,16 +561,14 @@ static op_list *make_observe(layout *map, const linear_system *s) {
         wanted[own + 2 * k] = poly_symbol(e->algebra, q, 0);
         wanted[own + 2 * k + 1] = poly_symbol(e->algebra, q, 1);
     }
-    op_list *t = make_observer(map, s, wanted, count, false);
-    free(wanted);
-    return t;
+    return make_observer(map, s, wanted, count, false);
 }
 
 static op_list *make_books(const poly *integral, layout *map, const linear_system *s) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
     const int n = e->count;
-    const poly **wanted = alloc(BOOK_MOMENTA + n + 1, sizeof *wanted);
+    const poly **wanted = polys(map, BOOK_MOMENTA + n + 1);
     int count = 0;
     if (!e->instance->mechanism->is_system) {
         wanted[BOOK_KINETIC] = e->kinetic;
@@ -626,9 +589,7 @@ static op_list *make_books(const poly *integral, layout *map, const linear_syste
             wanted[count++] = integral;
         }
     }
-    op_list *t = make_observer(map, s, wanted, count, true);
-    free(wanted);
-    return t;
+    return make_observer(map, s, wanted, count, true);
 }
 
 /* Parameter values may give 1/0 or too large numbers. A program with such a constant cannot run. */
@@ -698,58 +659,9 @@ static bool make_lists(program *p, const linear_system *s, diags *errors) {
            lists_finite(im, e, errors) && steps_need_no_turns(im, e, errors);
 }
 
-program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
-                      diags *errors) {
-    const int n = e->count;
-    const mechanism *m = e->instance->mechanism;
-    program *p = alloc(1, sizeof *p);
-    p->draft = image_draft_new();
-    p->draft.made->settings = *settings;
-    p->conserved = conservation_make(e, conserve, errors);
-    if (p->conserved == NULL) {
-        program_free(p);
-        return NULL;
-    }
-    const int polys = n * n + n;
-    const int more = contact_lists_polys(e, p->conserved, NULL);
-    const poly **dynamics = alloc(polys + more, sizeof(const poly *));
-    bool *turning = alloc(n, sizeof *turning);
-    bool *wanted = alloc(n, sizeof *wanted);
-    const symbol **symbols = alloc(n, sizeof *symbols);
-    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,     symbols,
-                             turning, wanted,        false,    settings->compensated};
-    for (int i = 0; i < n * n; i++) {
-        dynamics[i] = equations_fold(e, e->mass[i]);
-    }
-    for (int i = 0; i < n; i++) {
-        const poly *force = equations_fold(e, equations_force(e, i));
-        dynamics[n * n + i] = conservation_settle(e, p->conserved, force);
-        symbols[i] = e->unknowns[i].symbol;
-        turning[i] = symbols[i]->is_angle;
-        wanted[i] = p->conserved->number[i] < 0;
-    }
-    contact_lists_polys(e, p->conserved, dynamics + polys);
-    const bool fits = layout_arrange(&p->layout, e, p->conserved, dynamics, polys + more);
-    bool good = fits && make_lists(p, &s, errors);
-    if (!fits) {
-        diag_error(errors, m->at, NULL, "'%s' has more than %d coordinates, rates and states",
-                   m->name, IMAGE_COMPONENTS_MAX);
-    } else if (algebra_overflow(e->algebra)) {
-        equations_report_growth(e, errors);
-        good = false;
-    }
-    free(dynamics);
-    free(turning);
-    free(wanted);
-    free(symbols);
-    if (!good) {
-        program_free(p);
-        return NULL;
-    }
-    return p;
-}
-
-bool program_look_up(program *p, diags *errors) {
+/* Replaces the step's functions of one angle by tables (tables.h), if the settings ask for it. Returns false (reported)
+ * if that is impossible. */
+static bool look_up(program *p, diags *errors) {
     static const char no_contacts[] =
         "leave out --tables, or the effects with contacts and crossings: --without EFFECT";
     image *im = p->draft.made;
@@ -782,16 +694,57 @@ bool program_look_up(program *p, diags *errors) {
     return true;
 }
 
-void program_free(program *p) {
-    if (p == NULL) {
-        return;
+program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
+                      diags *errors) {
+    algebra *a = e->algebra;
+    const int n = e->count;
+    const mechanism *m = e->instance->mechanism;
+    const contact_laws *laws = e->contacts;
+    program *p = algebra_room(a, 1, sizeof *p);
+    layout *map = &p->layout;
+    *map = (layout){.equations = e, .conserved = conservation_make(e, conserve, errors)};
+    if (map->conserved == NULL) {
+        return NULL;
     }
-    if (p->draft.made != NULL) {
-        image_free(image_draft_done(&p->draft));
+    p->draft = image_draft_new();
+    p->draft.made->settings = *settings;
+    const int of_contacts = laws != NULL ? laws->count * (LAW_POLYS + n) + laws->set_count : 0;
+    const poly **dynamics = algebra_room(a, n * n + n + of_contacts, sizeof *dynamics);
+    bool *turning = algebra_room(a, n, sizeof *turning);
+    bool *wanted = algebra_room(a, n, sizeof *wanted);
+    const symbol **symbols = algebra_room(a, n, sizeof *symbols);
+    const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,     symbols,
+                             turning, wanted,        false,    settings->compensated};
+    int count = 0;
+    for (; count < n * n; count++) {
+        dynamics[count] = equations_fold(e, e->mass[count]);
     }
-    layout_free(&p->layout);
-    conservation_free(p->conserved);
-    free(p);
+    for (int i = 0; i < n; i++) {
+        dynamics[count++] = layout_ready(map, equations_force(e, i));
+        symbols[i] = e->unknowns[i].symbol;
+        turning[i] = symbols[i]->is_angle;
+        wanted[i] = map->conserved->number[i] < 0;
+    }
+    for (int k = 0; laws != NULL && k < laws->count; k++) {
+        const poly *each;
+        for (int i = 0; (each = contact_law_poly(e, k, i)) != NULL; i++) {
+            dynamics[count++] = layout_ready(map, each);
+        }
+    }
+    const bool fits = layout_arrange(map, dynamics, count);
+    bool good = fits && make_lists(p, &s, errors);
+    if (!fits) {
+        diag_error(errors, m->at, NULL, "'%s' has more than %d coordinates, rates and states",
+                   m->name, IMAGE_COMPONENTS_MAX);
+    } else if (algebra_overflow(a)) {
+        equations_report_growth(e, errors);
+        good = false;
+    }
+    if (!good || !look_up(p, errors)) {
+        image_free(p->draft.made);
+        return NULL;
+    }
+    return p;
 }
 
 uint64_t program_hash(const program *p) {

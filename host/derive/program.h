@@ -13,21 +13,15 @@
 
 typedef struct program {
     layout layout;
-    conservation *conserved;
     const poly *integral; /* the energy integral if it is not T + V, else NULL (equations.h) */
-    /* the image so far: its settings, lists, contacts and ledger; made == NULL: the caller has taken it */
-    image_draft draft;
+    image_draft draft;    /* the image so far: its settings, lists, contacts and ledger */
 } program;
 
-/* Makes the lists of an instance. `conserve` [count] selects the coordinates to recover from their momentum, or is
- * NULL. Returns NULL after an error (reported), such as too many components, a momentum that is not conserved, or a
- * constant that is not finite. */
+/* Makes the lists of an instance, with tables if the settings ask for them. `conserve` [count] selects the coordinates
+ * to recover from their momentum, or is NULL. Returns NULL after an error (reported), such as too many components, a
+ * momentum that is not conserved, or a constant that is not finite. The caller frees the image, the equations own the rest. */
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors);
-/* Replaces the step's functions of one angle by tables (tables.h), if the settings ask for it. Returns false (reported)
- * if that is impossible. */
-bool program_look_up(program *p, diags *errors);
-void program_free(program *p);
 
 uint64_t program_hash(const program *p);
 

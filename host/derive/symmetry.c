@@ -278,7 +278,7 @@ const poly *symmetry_along(const equations *e, const symmetry *s, const poly *co
 static symmetry symmetry_of(const equations *e, const double *by) {
     algebra *a = e->algebra;
     const int n = e->count;
-    symmetry s = {.shift = alloc(n, sizeof(const poly *)), .stored = poly_number(a, 0.0)};
+    symmetry s = {.shift = algebra_room(a, n, sizeof(const poly *)), .stored = poly_number(a, 0.0)};
     for (int i = 0; i < n; i++) {
         s.shift[i] = poly_number(a, by[n * n + i]);
         for (int j = 0; j < n; j++) {
@@ -333,9 +333,7 @@ static int find_more(finding *f, const conditions *c, bool of_both, bool conserv
         if (of_both) {
             made.stored = poly_number(f->equations->algebra, 0.0);
         }
-        if (poly_is_zero(made.momentum)) { /* a coordinate without kinetic energy */
-            free(made.shift);
-        } else {
+        if (!poly_is_zero(made.momentum)) { /* else a coordinate without kinetic energy */
             f->found->each[f->found->count++] = made;
         }
     }
@@ -367,13 +365,14 @@ symmetries *symmetries_find(const equations *e) {
     algebra *a = e->algebra;
     const int columns = columns_of(e);
     const int64_t square = (int64_t)columns * columns;
-    const poly **change = alloc(columns, sizeof *change);
+    const poly **change = algebra_room(a, columns, sizeof *change);
     const poly *const energy[] = {equations_fold(e, e->kinetic), equations_fold(e, e->stored)};
     conditions of[] = {{.columns = columns}, {.columns = columns}}; /* of T, of V */
     conditions of_forces = {.columns = columns};
-    symmetries *found = alloc(1, sizeof *found);
-    *found = (symmetries){
-        .each = alloc(columns, sizeof *found->each), .complete = true, .flat = is_flat(e)};
+    symmetries *found = algebra_room(a, 1, sizeof *found);
+    *found = (symmetries){.each = algebra_room(a, columns, sizeof *found->each),
+                          .complete = true,
+                          .flat = is_flat(e)};
     finding f = {e, found, alloc(square + columns, sizeof(double)), 0,
                  alloc(square, sizeof(double))};
     for (int which = 0; which < 2 && !algebra_overflow(a); which++) {
@@ -399,21 +398,5 @@ symmetries *symmetries_find(const equations *e) {
     free(of_forces.row);
     free(of[1].row);
     free(of[0].row);
-    free(change);
-    if (algebra_overflow(a)) {
-        symmetries_free(found);
-        return NULL;
-    }
-    return found;
-}
-
-void symmetries_free(symmetries *s) {
-    if (s == NULL) {
-        return;
-    }
-    for (int i = 0; i < s->count; i++) {
-        free(s->each[i].shift);
-    }
-    free(s->each);
-    free(s);
+    return algebra_overflow(a) ? NULL : found;
 }

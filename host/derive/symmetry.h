@@ -31,9 +31,9 @@ typedef struct symmetries {
     bool flat; /* T has constant coefficients: every translation and rotation is affine */
 } symmetries;
 
-/* Finds the symmetries of a mechanism given by energies. Returns NULL if the algebra overflows. */
+/* Finds the symmetries of a mechanism given by energies. Returns NULL if the algebra overflows. The equations own the
+ * result. */
 symmetries *symmetries_find(const equations *e);
-void symmetries_free(symmetries *s);
 
 /* The sum of row[i] times the symmetry's motion of coordinate i: the power of a force, or the rate of a gap. */
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row);

@@ -170,7 +170,6 @@ TEST(conserved, a_coordinate_follows_from_its_momentum) {
         check_law(c, terms, &start, mass, &seed);
         closed += c->closed;
         open += !c->closed;
-        conservation_free(c);
         equations_free(e);
         instance_free(inst);
         model_free(parsed);

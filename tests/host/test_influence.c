@@ -46,8 +46,8 @@ static void test_what_acts_on_others_only_is_no_reason(void) {
     instantiate(NULL);
     equations *e = equations_derive(made, said);
     program *p = e == NULL ? NULL : program_make(e, parsed->scenes[0]->conserve, &plainly, said);
-    TEST_ASSERT_TRUE(p != NULL && p->conserved->closed);
-    program_free(p);
+    TEST_ASSERT_TRUE(p != NULL && p->layout.conserved->closed);
+    image_free(p->draft.made);
     equations_free(e);
 }
 

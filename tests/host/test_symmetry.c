@@ -288,7 +288,6 @@ TEST(symmetry, particles) {
         TEST_ASSERT_TRUE_MESSAGE(found->complete && found->flat, why);
         with_rotation += conserved > 2 ? 1 : 0;
         with_none += conserved == 0 ? 1 : 0;
-        symmetries_free(found);
         derived_free(&d);
     }
     TEST_ASSERT_TRUE(with_rotation > 0 && with_none > 0);

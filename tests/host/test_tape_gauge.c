@@ -170,7 +170,7 @@ static bool hold(const char *text, uint64_t seed, tally *all) {
             all->worse += after > before + 1e-15;
         }
         image_free(im);
-        program_free(p);
+        image_free(p->draft.made);
     }
     derived_free(&d);
     return derives;
@@ -229,7 +229,7 @@ TEST(tape_gauge, scenes_need_a_price_for_scaling) {
         TEST_ASSERT_TRUE_MESSAGE(op_list_hash(*step) == hash, names[k]);
         op_list_scale(step, op_list_scaling_price(*step));
         TEST_ASSERT_TRUE_MESSAGE(op_list_bias(*step, *step) < left[k] * bias, names[k]);
-        program_free(p);
+        image_free(p->draft.made);
         derived_free(&d);
     }
 }
