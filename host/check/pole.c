@@ -12,26 +12,24 @@
 
 /* === a pole on the way =========================================================================== */
 
-enum { HALVINGS = 56 }; /* halvings that locate a zero on the path to the last digit of its share */
-#define FARTHER 2.5     /* factor on the distance if round-off hides the growth of a value */
-/* An expression whose sign alternates TURNS_MOST times near a place is round-off, because a smooth one has few zeros
- * there. The tested distances grow by FURTHER, up to the part NEAR of the path on that side. */
-enum { TURNS_MOST = 4 };
-#define NEAR 0.2
-#define FURTHER 1.4
-/* A value may touch zero if its tangents at both ends cross below this part of the smaller end value. */
+enum { HALVINGS = 56 };  /* enough to locate a sign change on the path, down to round-off */
+#define FARTHER 2.5      /* if samples show only round-off, their distances grow by this factor */
+enum { TURNS_MOST = 4 }; /* sign changes that show round-off: a smooth expression has fewer */
+#define NEAR 0.2         /* they are counted up to this share of the distance to the part's end */
+#define FURTHER 1.4      /* each distance at which the sign is tested, divided by the one before */
+/* A value may touch zero if its tangents at the two ends cross below TOUCHES times the smaller end value. */
 #define TOUCHES 1e-3
 /* SECTIONS golden sections find the minimum of a value to its last digit. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
 enum { PARTS_MOST = 16 }; /* most rejected places on the path of a step */
 
-/* Number of sampled distances, each GROWTH_CLOSER times smaller than the one before. This is no power of two: numbers
- * with the same digits have the same round-off, which would look like steady growth. */
-enum { GROWTH_POINTS = 10 };
-#define GROWTH_CLOSER 1.7099759466766968 /* the third root of 5 */
-#define GROWTH_REACH 125.0               /* largest sampled distance, relative to the smallest */
-#define GROWTH_BEYOND 1e60 /* a value that overflows at a pole is larger than this before */
+enum { GROWTH_POINTS = 10 }; /* number of sampled distances */
+/* Each sampled distance, divided by the next smaller one: the third root of 5. A power of two would give all distances
+ * the same digits and the same round-off, which would look like steady growth. */
+#define GROWTH_CLOSER 1.7099759466766968
+#define GROWTH_REACH 125.0 /* largest sampled distance, relative to the smallest */
+#define GROWTH_BEYOND 1e60 /* an overflow is a pole only if the finite sample beside it is larger */
 
 typedef enum growth {
     GROWTH_ROUGH, /* not steady: round-off or a zero; at greater distances it may be steady */
@@ -39,7 +37,7 @@ typedef enum growth {
     GROWTH_POLE   /* steady, as at a pole */
 } growth;
 
-/* Least growth from one distance to the next at a pole: 1/distance grows by 1.71, distance^(-9/10) by 1.62. */
+/* Least growth at a pole, from one distance to the next. 1/distance grows by 1.71; distance^(-9/10), by only 1.62. */
 #define GROWS 1.64
 #define EVEN 1.1 /* growth is steady if its ratios differ by less than this factor */
 
@@ -166,7 +164,7 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Is expression i only round-off near the zero? Its sign then alternates at distances from `from` to `most`. */
+/* Does the sign of expression i alternate at distances from `from` to `most`? If so, the expression is round-off. */
 static bool is_rounding(const looker *l, int i, double zero_at, double from, double most) {
     double before = 0.0;
     double off = from;
@@ -205,8 +203,8 @@ typedef struct spot {
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 #define LEFT 0.05 /* relative tolerance of the value extrapolated to the place */
 
-/* Is the value above zero at the place, as x^2 + y^2 with y != 0 at x = 0? Then its samples near the place, minus their
- * quadratic part, equal the value at the place. */
+/* Is the value above zero at the place, as x^2 + y^2 with y != 0 at x = 0? If so, each of the NEAREST samples is the
+ * sum of the value at the place and a part that is quadratic in the distance. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -228,7 +226,7 @@ static bool is_there(const spot *s, const double *over) {
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
 }
 
-/* The first expression that grows like a pole from the signed distance `far` to the place, or -1. */
+/* The first expression that grows as at a pole, or -1. The farthest sample is at the signed distance `far`. */
 static int grows_from(const looker *l, const spot *s, double far) {
     const double zero_at = s->zero_at;
     const int values = l->way->values;
@@ -283,8 +281,8 @@ static int pole_at(const looker *l, const spot *s) {
     return found >= 0 ? found : pole_on_side(l, s, 1.0);
 }
 
-/* Searches this part for a sign change, else for a value that may touch zero. Returns the expression with a pole there,
- * or -1. *at: the located interval; the end of the part if nothing was located. */
+/* Searches this part for a sign change. If there is none, it searches for a value that may touch zero. Returns the
+ * expression with a pole there, or -1. *at: the interval that contains the place; {p.high, p.high} if there is none. */
 static int pole_in(const looker *l, part p, part *at) {
     l->way->at(l->way->of, p.low, l->sign, l->value);
     l->way->at(l->way->of, p.high, l->then, l->value);
@@ -340,20 +338,20 @@ int pole_on(const pole_way *w) {
 }
 
 /* === divisors ==================================================================================== */
-/* Divisors, which change their sign at a pole, and expressions that may grow there.
+/* The divisors, which change their sign at a pole, and the expressions that may grow there.
  *
- * Divisors and bases of negative powers are split into factors. If a system has moving factors of a highest derivative,
- * as in (k + s)*s' = -v*s, the divisors of its solution are tested, too. Values that depend on more than the state,
- * such as a rate recovered from a momentum, are not tested. */
+ * Divisors and bases of negative powers are split into factors. A factor of a highest derivative may depend on the
+ * state: (k + s)*s' = -v*s. If so, the divisors in the solution for s' are tested, too. Values that depend on more than
+ * the state, such as a rate recovered from a momentum, are not tested. */
 
 typedef struct divisor {
-    int node;      /* of image_diagnostics; if `derived`, an operation of IMAGE_BOOKS */
+    int node;      /* index in image_diagnostics.node; if `derived`, in the list IMAGE_BOOKS */
     bool of_a_tan; /* the divisor is the cosine of a tangent's argument */
     bool derived;
     bool leaps;    /* an event may change the value abruptly */
     bool bends;    /* the value is nonlinear in the state, and may touch zero */
     double before; /* value before the step */
-    double aside;  /* value after the share POLE_ASIDE of the step's path */
+    double aside;  /* value at the share POLE_ASIDE of the step's path: near its begin */
     double now;    /* value after the step */
 } divisor;
 
@@ -493,7 +491,7 @@ static void find_order(denominators *d) {
     }
 }
 
-/* Collects the expressions that may grow: energies, losses, forces, equations, their slopes, and normal forces. */
+/* Collects the expressions that may grow: energies, losses, their derivatives, forces, equations, and frictions. */
 static void find_questions(denominators *d) {
     const image *im = d->at.image;
     d->asked = alloc(im->diagnostics.questions, sizeof *d->asked);
@@ -508,7 +506,7 @@ static void find_questions(denominators *d) {
     }
 }
 
-/* Does a highest derivative of a system have a moving factor, so that the slope is divided by it? */
+/* Does a factor of a highest derivative depend on the state? If so, the solution for this derivative has a divisor. */
 static bool has_factors_that_move(const denominators *d) {
     const image *im = d->at.image;
     for (int i = 0; i < im->diagnostics.nodes && !im->has_energies; i++) {
@@ -631,7 +629,8 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* The index of the image's expression for pole_way's value[value]; for a slope, that of the first equation with it. */
+/* The index in image_diagnostics.question of the expression value[value] of pole_way.at(). A slope has none:
+ * the result is the first one that contains this highest derivative. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {
@@ -729,7 +728,7 @@ static double relative_way_of(const pole_crossing *j, int c) {
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
 }
 
-/* The largest relative change of the components that the divisor depends on; a derived one may depend on all. */
+/* The largest relative change of the components on which this divisor may depend; if it is derived, these are all. */
 static double relative_way(const pole_crossing *j, const divisor *d) {
     double most = 0.0;
     for (int c = 0; c < j->components && d->derived; c++) {

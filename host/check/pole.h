@@ -31,15 +31,14 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *b
 /* === a pole on the way =========================================================================== */
 /* Finds a pole on the path from one state to the next.
  *
- * Divisors change their sign at a pole, expressions grow there. Halving locates a sign change. Each expression is
- * sampled towards that place from both sides, down to the smallest distances at which it changes smoothly; below them
- * is only round-off. The place is a pole if an expression grows about as fast as one over the distance. A limit, an
- * integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place
- * the path on both sides is tested: 1 + k/s changes its sign at its zero s = -k, and at its pole s = 0.
+ * At a pole, a divisor changes its sign and an expression grows. Halving locates the sign change. Each expression is
+ * sampled towards that place from both sides, at the smallest distances at which round-off does not hide its growth.
+ * The place is a pole if an expression grows about as fast as 1/distance. It is no pole if the expressions have limits,
+ * grow unevenly, or grow as slowly as 1/sqrt(distance), which is integrable. If the place is no pole, the path on both
+ * sides of it is searched for others: 1 + k/s changes its sign at its zero s = -k, and at its pole s = 0.
  *
- * A divisor that only touches zero, such as 1 - cos(q), changes no sign. If its magnitude falls at the begin of a part
- * and rises at the end, steeply enough to touch zero, golden sections find its minimum. The minimum is tested in the
- * same way. */
+ * A divisor that only touches zero, such as 1 - cos(q), does not change its sign. If its tangents at both ends of a
+ * part of the path permit it to touch zero, golden sections find its least magnitude. This place is tested as above. */
 
 typedef struct pole_way {
     void *of;
@@ -47,12 +46,12 @@ typedef struct pole_way {
     int values;
     const double
         *nearest; /* [signs] smallest tested distance from a zero, as a share of the path */
-    /* Evaluates divisors, sign[signs], and expressions, value[values], at this share of the path, 0 to 1. */
+    /* Evaluates the divisors (sign[signs]) and expressions (value[values]) at this share of the path, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;
 
-/* May a value with these samples at 0, POLE_ASIDE, 1 - POLE_ASIDE and 1 have touched zero in between? It is assumed to
- * stay above its tangents at both ends, as a square does. */
+/* May a value touch zero on a path? value[]: its samples at the shares 0, POLE_ASIDE, 1 - POLE_ASIDE and 1. The
+ * magnitude is assumed to stay above its tangents at both ends, as a square does. */
 #define POLE_ASIDE 0x1p-20
 bool pole_may_touch(const double value[static 4]);
 

@@ -64,8 +64,8 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The remaining part of BUDGET_LEAST, minus the part reserved for the remaining steps. While the result is below 0, the
- * search for poles skips steps; so the searched steps are spread over the whole run. */
+/* The remaining budget, relative to BUDGET_LEAST, minus the remaining share of the steps. While this is below 0, the
+ * search for poles skips steps. This spreads the searched steps over the whole run. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
@@ -144,7 +144,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* In float, the rate of a coordinate with less than this part of the energy is below the round-off of other rates. */
+/* In float, a coordinate with less than this part of the energy has a rate below the round-off of other rates. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -154,7 +154,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     double own = 0.0;
-    double fastest = 0.0; /* includes the runs' difference: one of the two rates may be zero */
+    double fastest = 0.0; /* the larger of `own` and the largest difference between the two runs */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
@@ -167,7 +167,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* Is column k a float turn angle with an error of at most two of the units to which it is rounded? */
+/* Is column k an angle of a float run, with an error no larger than the round-off of such an angle? */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->doubling->column[k];
     const int own = image_find_component(v->image, v->doubling->shape->column[k].unknown, 0);
@@ -187,7 +187,7 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* Is an error reported that reached the small tolerance at early_s, and the full one at until_s? See finding.h. */
+/* Is an error reported that reaches the early tolerance at early_s, and the tolerance at until_s? See finding.h. */
 static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
     (void)k;
     return early_s <= RUN_CHECKS_BEGIN * v->doubling->end_s ||
@@ -202,7 +202,7 @@ static bool is_sudden(const run_checks *v, int k, double until_s, double early_s
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* The column with the first error among those for which is() is true; -1: none. *until_s: time of that error. */
+/* The column whose error exceeds `tolerance` first, at *until_s; -1: none. Skips columns for which is() is false. */
 static int first_with(const run_checks *v, double tolerance, double early_tolerance,
                       bool (*is)(const run_checks *v, int k, double until_s, double early_s),
                       double *until_s) {
@@ -223,7 +223,7 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
     return found;
 }
 
-/* An error at the time when the comparison ended early is not reported: another finding reports that end. */
+/* Differences after cut_s count as infinite. They are errors only if the finer run failed; else nothing is known. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->doubling;
     double until_s = 0.0;
