@@ -33,9 +33,9 @@ WH_C_BEGIN
  * twice per turn, which changes the speed and so gives the force a third harmonic.
  *
  * A rigid rotor on a fixed mount has no such harmonics: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
- * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping's effect on w^2 and the angle's third order add a
- * little (result.c). The noise is estimated from differences of successive samples, as for the tare, so that hum and
- * slow changes do not count as noise. */
+ * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping's effect on w^2 adds small
+ * harmonics, and so do the angle's third-order terms (result.c). The noise is estimated from differences of successive
+ * samples, as for the tare, so that hum and slow changes do not count as noise. */
 
 /* Number of angles at which the residual is summed. Hum at or above harmonic 26 of the turn (50 Hz at 115 rpm) is
  * aliased to harmonics 6 and below, with a fifth of its amplitude. */
@@ -51,7 +51,7 @@ typedef struct wh_repeats {
     wh_real bin_N[WH_REPEATS_BINS]; /* integral of the residual over the angle */
 } wh_repeats;
 
-/* Adds residual_Nrad, a residual times the step of the angle, at theta_rad (at most about one turn). */
+/* Adds residual_Nrad (a residual times an angle step) to the bin of theta_rad (at most about one turn). */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
     const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
@@ -70,10 +70,9 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
 /* Maximum number of waiting samples: 1.25 turns at 100 rpm and 500 samples/s. A small chip's build may set less. */
 #define WH_LOCKIN_SAMPLES 384U
 #endif
-/* Limits of the work per control step: half nodes, and dropped samples that are older than the turn. The work for a
- * node (a sample or pulse) has two halves: its place and its weight. */
-#define WH_LOCKIN_HALVES_AT_ONCE 3U
-#define WH_LOCKIN_STALE_AT_ONCE 8U
+/* Limits per control step. A node (a sample or pulse) takes two halves of work: its place and its weight. */
+#define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes */
+#define WH_LOCKIN_STALE_AT_ONCE 8U  /* samples dropped because they are older than the turn */
 
 /* Reasons why a turn does not count. */
 typedef enum wh_turn_fault {
@@ -124,11 +123,11 @@ typedef enum wh_lockin_place {
 
 /* A point of the load's curve: a sample or a pulse. */
 typedef struct wh_lockin_node {
-    wh_real part; /* fraction of the turn's time before the node */
+    wh_real part; /* time from the turn's begin to the node, as a fraction of the turn's time */
     wh_real theta_rad;
     wh_real force_N;
     wh_real residual_N;     /* force minus the prediction */
-    wh_lockin_orders waves; /* 1, cos, sin, cos 2 theta, sin 2 theta */
+    wh_lockin_orders waves; /* 1, cos theta, sin theta, cos 2 theta, sin 2 theta */
 } wh_lockin_node;
 
 /* Small members come first: some processors have short instructions that reach only the start of a struct. */
@@ -180,14 +179,14 @@ typedef struct wh_lockin {
     uint32_t ticks[WH_LOCKIN_SAMPLES];
 } wh_lockin;
 
-/* Start a zeroed lock-in, or restart one; the counters stay. The samples' memory stays, too: clearing it would take too
- * long in a control step. */
+/* Start a zeroed lock-in, or restart one. The counters `skipped` and `refused` keep their values. The arrays of samples
+ * are not cleared, because that would take too long in a control step. */
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* Take a pulse of sensor 0 or 1 at `ticks`. `quarter` is the number of quarter turns so far, wrapping. */
 void wh_lockin_pulse(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
 
-/* As wh_turn_angle_compensate(). If that is a change, the turn in progress does not count. */
+/* As wh_turn_angle_compensate(). If `compensated` changes, the turn in progress does not count. */
 void wh_lockin_compensate(wh_lockin *lockin, bool compensated, wh_real stall_Nm_per_V);
 
 /* Call this when the count of quarter turns has restarted: the turn in progress does not count. */

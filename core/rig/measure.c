@@ -4,7 +4,7 @@
 #include "core/root.h"
 #include "datasheet.h"
 
-/* The work for a turn's samples takes at most this time after the turn. */
+/* After a record's time, wh_measure_end() waits at most this long for the lock-in to finish a turn. */
 #define LAST_TURN_MAX_S WH_R(0.5)
 
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
@@ -54,8 +54,8 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 /* Pieces of work that merge the turns into a result. The last one judges the result's quality. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Pieces of work after a turn: one for its repeating residual, then the merging. At the record's end: one for each
- * harmonic, then the merging. */
+/* After a turn, one piece of work adds its repeating residual to the sum. At the record's end, one piece evaluates each
+ * harmonic of that sum. In both cases the pieces of the merge follow. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -70,8 +70,8 @@ static void repeats_piece(wh_measure *measure) {
     measure->due--;
 }
 
-/* First of the pieces that compute scatter and half-widths. Unless pieces must be small, one control step does these,
- * and another the means. */
+/* The pieces before this one compute the means, the others the scatter and half-widths. Unless pieces must be small,
+ * each of these two groups takes one control step. */
 #define SCATTER 3U
 
 static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
@@ -174,8 +174,8 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Largest variance of the triangular means from noise, as a factor of the samples' variance: four times that of white
- * noise, which is 2/3 divided by the length of a block. */
+/* The largest variance that noise may give the triangular means, divided by the samples' variance. White noise gives
+ * 2 / (3 WH_TARE_BLOCK); four times that is allowed. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
 /* Ends a block: takes the mean of this block and the previous one, with triangular weights. */

@@ -21,8 +21,8 @@ WH_C_BEGIN
  * variance: with eleven means, noise alone exceeds it in less than one of 10,000 tares. */
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* samples of a tare: at least 4 WH_TARE_BLOCK, for three means */
-    wh_real still_N;  /* largest standard deviation of slow motion at rest, besides noise */
+    uint32_t samples; /* at least 4 WH_TARE_BLOCK, because the check needs three means */
+    wh_real still_N;  /* largest standard deviation that slow motion may add to these means */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
 
@@ -38,8 +38,8 @@ typedef struct wh_tare {
     wh_real falls_N;  /* the same with falling weights */
     wh_real before_N; /* rises_N of the previous block */
     uint32_t means;   /* number of triangular means */
-    wh_real slow_N;   /* mean of the triangular means; slow_N2: sum of squared deviations from it */
-    wh_real slow_N2;
+    wh_real slow_N;   /* mean of the triangular means */
+    wh_real slow_N2;  /* sum of their squared deviations from slow_N */
 } wh_tare;
 
 /* Add a sample to the tare. A new tare is all zeros. */
@@ -75,7 +75,7 @@ typedef struct wh_rig_result {
 
 typedef struct wh_measure {
     bool records;
-    bool adds;            /* the last turn is to be added, before the work in `due` */
+    bool adds;            /* lockin.turn must still be added to `merge` */
     bool peaks;           /* low_N and high_N are valid */
     bool ends;            /* the record's last turn is finished */
     uint8_t due;          /* remaining pieces of work, for the last turn or the record's end */
@@ -97,8 +97,8 @@ void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *index);
 /* Take a load sample: for the tare if at_rest, otherwise for the measurement. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* Call this once per control step. It does a bounded piece of the work, with `halves` half nodes of a turn's sums. Work
- * that cannot be split needs `halves` of WH_LOCKIN_HALVES_AT_ONCE or more. */
+/* Call this once per control step. It does a bounded piece of the work: at most `halves` half nodes of a turn's sums.
+ * If `halves` is less than WH_LOCKIN_HALVES_AT_ONCE, all other work waits, because it cannot be split. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
 /* Begin a record now, at a speed > 0; drop an earlier record. */

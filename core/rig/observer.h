@@ -20,11 +20,11 @@
 WH_C_BEGIN
 
 typedef struct wh_observer_config {
-    /* one angle, its rate, and one input: motor voltage / rated voltage */
+    /* The scene's input is the motor's voltage as a fraction of the rated voltage. */
     const wh_scene *scene;
-    wh_real stall_Nm;      /* the scene's motor torque at standstill and input 1, > 0 */
+    wh_real stall_Nm;      /* standstill torque of the scene's motor at an input of 1, > 0 */
     wh_real no_load_radps; /* motor speed without load at the rated voltage, > 0 */
-    /* The scene's motor has this motor's torque at the input per_drive * drive + per_radps * speed. */
+    /* The input per_drive * drive + per_radps * speed gives the scene's motor the torque of the rig's motor. */
     wh_real per_drive;
     wh_real per_radps;
     /* The motor stage cannot brake: a voltage below the back-EMF makes no torque. */
@@ -35,7 +35,7 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_RIG_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_RIG_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                   /* largest magnitude of the torque */
-    /* The observer is valid after trusted_pulses successive innovations of at most trusted_rad, until a larger one. */
+    /* trusted_pulses successive innovations of at most trusted_rad make the observer valid. A larger one ends this. */
     wh_real trusted_rad;
     uint32_t trusted_pulses;
     wh_real lost_rad;      /* a larger innovation restarts the observer; < pi */
@@ -62,10 +62,10 @@ typedef struct wh_observer {
 } wh_observer;
 
 /* The configuration for the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen
- * for rotors of half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400
- * rpm. Each turn multiplies the errors of angle, speed and torque by a matrix. Its spectral radius at a steady speed is
- * 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. Near the top, between the pulses of sensors 2
- * and 1, gravity increases errors, mainly at low speed. */
+ * for 80 to 400 rpm and for rotors with 0.5 to 6 times the scene's inertia, 0.7 to 1.3 times its gravity and up to 0.2
+ * N m of friction. Each turn multiplies the errors of angle, speed and torque by a matrix. At a steady speed, its
+ * spectral radius is 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. Near the top, which the
+ * rotor passes between sensors 2 and 1, gravity increases the errors, mainly at low speed. */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
@@ -98,8 +98,8 @@ void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer, 
 /* Restart the observer, for example if pulses were wrong. */
 void wh_observer_forget(wh_observer *observer);
 
-/* Return the angle at a time some milliseconds after the last step, by linear extrapolation, as a phase (angle.h) or
- * between -pi and pi rad. The error is within 3e-5 rad for 1 ms at 60 rad/s^2. Valid if observer->valid. */
+/* Return the angle at `ticks`, as a phase (angle.h) or in rad from -pi to pi. Valid if observer->valid. `ticks` may be
+ * some milliseconds after the last step: extrapolation is linear, and 1 ms at 60 rad/s^2 gives 3e-5 rad of error. */
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);
 

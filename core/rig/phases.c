@@ -29,14 +29,15 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-/* For this time after the loop has closed, the measured speed may jump, because the first turn is from the spin-up. */
+/* For this time after the loop has closed, the measured speed may jump, because the first turn began in the spin-up. */
 #define JUMP_S WH_R(0.5)
 
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
-    /* Commanded speed: at first that without load at this voltage; soon after the loop has closed, the set-point. */
+    /* The commanded speed is `unloaded` in the spin-up, the higher of `unloaded` and `setpoint` for the next
+     * WH_RUN_START_S, and `setpoint` after that. */
     const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
@@ -57,14 +58,13 @@ static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->compensated);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
-        /* for example if gravity cannot be compensated */
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
     }
     return allowed && wh_drive_at_target(&run->drive);
 }
 
-/* Maximum number of pulses of sensor 1 during the tare, from jitter: the slot of a hanging rotor is at this sensor.
- * More pulses, or one of sensor 2, mean that the rotor does not hang. */
+/* The slot of a hanging rotor is at sensor 1. So jitter may cause up to this many pulses of sensor 1 during the tare.
+ * More pulses, or a pulse of sensor 2, mean that the rotor does not hang. */
 #define TARE_PULSES_MOST 2U
 
 static void tare(wh_run *run, const wh_run_scene *scene) {
@@ -78,7 +78,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
         return;
     }
     run->volts = scene->config->spin_up_V;
-    /* The pulses so far are old, or jitter at the slot of the hanging rotor. */
+    /* Earlier pulses are old, or come from jitter while the hanging rotor's slot is at sensor 1. */
     wh_pulses_forget(scene->pulses);
     wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
@@ -123,7 +123,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* The speed is in the band if the last turn is or, because pulses jitter, the mean of several turns. */
+    /* Pulses jitter. So the last turn may be outside the band if the mean of several turns is in the band. */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&
@@ -222,8 +222,8 @@ const char *wh_phase_text(wh_rig_phase phase) {
 /* Fractions of a turn by which a pulse may be early. */
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12)
-#define RECORD_PART WH_R(0.8) /* window of a record, as a part of its relative speed band */
-/* From rest, the bound for the first pulses is this part of the commanded speed, because the rotor lags behind. */
+#define RECORD_PART WH_R(0.8) /* a record's window, divided by record_band_radps / target_radps */
+/* For the first two pulses from rest, the bound uses this part of the commanded speed: the rotor is still slower. */
 #define FIRST_PART WH_R(0.8)
 /* The last one or two pulses of a braked rotor come at less than this speed. */
 #define SLOW_RADPS WH_R(16.0)
@@ -241,7 +241,7 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
         setpoint.jumps ? guard->climb_start_radps2
                        : wh_guard_climb_radps2(guard, setpoint.setpoint_radps - speed->turn_radps,
                                                wh_run_is_closed(run));
-    /* The bound falls with the rotor's speed and rises only with the commanded speed, not with a runaway drive. */
+    /* left_radps falls with the rotor's speed. Only the commanded speed can raise it; a runaway drive cannot. */
     run->left_radps = speed->known && speed->turn_radps < setpoint.limit_radps
                           ? speed->turn_radps
                           : setpoint.limit_radps;
@@ -256,7 +256,7 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (!pulses->speed.running) {
         return;
     }
-    /* true also with a suspect between the last pulse and this one */
+    /* pulses->last is the last accepted pulse. A suspect may have come after it. */
     const bool same = sensor == pulses->last.pulse.sensor;
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
@@ -269,9 +269,9 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* `slow` needs a braking motor: a rotor that swings freely passes the sensors to and fro, and its intervals are no
-     * speeds. `slow` needs sensor 2 (index 1): a rotor that does not get over the top falls a quarter turn back to
-     * sensor 1, which looks like three quarters forward. */
+    /* `slow` needs a braking motor, because the intervals of a rotor that swings to and fro do not give its speed.
+     * `slow` needs a pulse of sensor 2 (index 1), because one of sensor 1 may come from a rotor that fell back a
+     * quarter turn from sensor 2. That looks like three quarters of a turn forwards. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }
