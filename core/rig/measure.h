@@ -21,8 +21,8 @@ WH_C_BEGIN
  * variance: with eleven means, noise alone exceeds it in less than one of 10,000 tares. */
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* at least 4 WH_TARE_BLOCK, because the check needs three means */
-    wh_real still_N;  /* largest standard deviation that slow motion may add to these means */
+    uint32_t samples; /* at least 4 WH_TARE_BLOCK: the check needs the three means of four blocks */
+    wh_real still_N;  /* largest standard deviation that slow motion may add to the means */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
 
