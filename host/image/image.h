@@ -315,7 +315,7 @@ typedef struct image {
     int set_count; /* values that crossings set */
     int *target;   /* [set_count] component of the state, angles first */
     image_ledger ledger;
-    image_diagnostics diagnostics; /* empty unless requested */
+    image_diagnostics diagnostics; /* empty in an image for writing (IMAGE_TO_WRITE) */
 
     image_matrix matrix; /* empty unless settings.matrix requests one */
 
