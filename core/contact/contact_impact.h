@@ -83,8 +83,8 @@ static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contac
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Returns, as bits, the resting stops that have a restitution and carry no load. After their release, an impulse
- * through such a stop is a separate impact in the next round, as in Newton's cradle. work->force must be up to date. */
+/* Returns, as bits, the resting stops that have a restitution and carry no load. If the caller releases them, an
+ * impulse can hit them separately in the next round, as in Newton's cradle. work->force must be up to date. */
 static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned resting, const wh_real *accel) {
     unsigned bits = 0;
@@ -118,8 +118,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Adds to work->hit_next, for an impact in the next round, the free stops outside `hits` that touch within the error of
- * location and that an impulse made close. `before` and `after` are the signals before and after the impulse. */
+/* An impulse may make free stops outside `hits` close, or close more than twice as fast. Adds those that touch within
+ * the error of location to work->hit_next, for the next round. before[] and after[] are signals. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -134,9 +134,9 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Returns, as bits, the free stops without restitution that touch and whose rate is negligible, compared with the rate
- * that the impact of `hits` gives them. They take part in the impact, because they block the motion after it. As
- * separate plastic impacts, two such stops could cause each other's impact for ever. */
+/* Returns, as bits, the free stops that take part in the impact of `hits` because they block the motion after it. They
+ * touch, have no restitution, and their rate is negligible, compared with the rate that the impact would give them. If
+ * such stops had separate plastic impacts, two of them could cause each other's impact for ever. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -174,10 +174,10 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Resolves the impact of the stops in `hits` (bits): each bounces, or rests if its flight would be too short. A stop
- * that comes to rest gets one impulse, because a bounce and a second, opposite impulse would release other stops. A
- * resting stop that the impact releases rests again if its flight would be too short, because a body in a corner would
- * otherwise bounce for ever. Returns `hits` and the stops that close at the same time. */
+/* Resolves the impact of the stops in `hits` (bits): each bounces, or rests if its flight would be too short. This is
+ * decided before the impulse: a bounce, and then a second impulse that stops the body, would release other stops. A
+ * resting stop that the impact releases rests again if its flight would be too short. Otherwise a body in a corner
+ * would bounce for ever. Returns `hits` and the stops that close at the same time. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -255,9 +255,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* Moves bodies that are beyond free stops back onto them; if `coarse`, only those beyond by more than round-off. The
- * displacement is the smallest in the metric of the mass matrix. Stops push, and pull only after too large a push.
- * Returns, as bits, the stops that were passed or that pushed. Then signal[] and work->law belong to the new state. */
+/* Moves bodies that are beyond free stops back onto them; if `coarse`, only those that wh_contact_far() finds. The
+ * displacement is the smallest in the metric of the mass matrix. Stops pull only bodies that they pushed too far.
+ * Returns, as bits, the stops that were passed or that pushed. Then signal[] and work->law belong to `s`. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -274,7 +274,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         unsigned mover = WH_CONTACTS_MAX;
         unsigned count = 0;
-        unsigned over = 0; /* bits: stops that pushed too far, because the gap is curved */
+        unsigned over = 0; /* bits: stops that have pushed a body too far (nonlinear gap) */
         wh_contact_look(of, w, s, input, accel, signal);
         for (unsigned k = 0; k < of->forced; k++) {
             const bool stop = wh_contact_of(of, k, WH_STOP);
@@ -294,7 +294,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             break;
         }
         if (mover == WH_CONTACTS_MAX) {
-            /* Move the bodies back until they touch. Only here may a stop pull. */
+            /* A push was too large: move the bodies back until they touch. The stops may pull in this solution. */
             unsigned kept = 0;
             for (unsigned i = 0; i < count; i++) {
                 const unsigned k = member[i];
@@ -358,8 +358,8 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
-/* Returns the change of the condition of hold k from `now`, if the held expression and its rate change by WH_EDGE_PROBE
- * of their terms. work->law must belong to the state. */
+/* Returns the change of hold k's condition from its value `now` if the held expression rises by WH_EDGE_PROBE times
+ * wh_contact_extent(), and its rate by WH_EDGE_PROBE times wh_contact_terms(). work->law must belong to `s`. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -379,8 +379,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* Returns the round-off of the condition of hold k if the condition's value `now` is zero within it, otherwise 0. The
- * result is negative if the condition falls when the expression rises. */
+/* Returns the round-off of the condition of hold k if the condition's value `now` does not exceed this round-off,
+ * otherwise 0. The result is negative if the condition falls when the held expression rises. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -388,9 +388,8 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* If a hold in `holds` (bits) captured while its condition was still negative by the error of location, moves the held
- * expression until the condition has the opposite value. signal[] must belong to the state; rates[] are the signals
- * before the capture. */
+/* If the error of location has left the condition of a hold in `holds` (bits) negative, moves the held expression until
+ * the condition has the opposite value. rates[] are the signals before the capture; signal[] must belong to `s`. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {
@@ -406,8 +405,8 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real own = wh_contact_own(of, w, k, input, s, signal[2 * k]);
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
+            /* A larger `by` would mean that the condition hardly depends on the held expression: do not use it. */
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
-                /* a larger move means that the condition hardly depends on the held expression */
                 wanted[i] = by;
                 mover = k;
             }

@@ -29,12 +29,12 @@
  * would release and hit an unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path counts as straight if its curvature term J' q' differs from that of the other contacts by less than this
- * fraction of the acceleration's terms. The term is quadratic in the rates, and a small rate remains after friction has
- * stopped a motion. */
+/* The curvature terms J' q' of redundant contacts count as equal if they differ by less than this fraction of the
+ * acceleration's terms. Otherwise the small rate that remains after friction has stopped a motion would make the
+ * contacts contradict each other. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* The excess of a force over its limit, as a fraction of the limit, if round-off hides the true excess. */
+/* If round-off hides the excess of a force over its limit, the force gets this excess, as a fraction of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
@@ -47,12 +47,12 @@ typedef struct wh_contact_set {
     const int8_t *at; /* [count] -1: at low limit, 0: between, 1: at high limit; NULL: all 0 */
 } wh_contact_set;
 
-/* Finds redundant contacts whose wanted acceleration (in an impact, rate) the other contacts do not produce. Examples:
- * at a dead centre two rows are parallel, but only one of the paths is curved; two stops on one path have different
- * restitutions. For each contact in `repeats` (bits of indices in member[]), push[] gets the sign of the missing
- * acceleration or rate, or 0. way[] is the change of the accelerations by all forces or, if impulse[] is not NULL, of
- * the rates by all impulses. The curvature term J' q' is also tested by itself: in a slow motion the round-off of the
- * accelerations would hide it. */
+/* Finds redundant contacts whose wanted acceleration (in an impact, rate) the other contacts do not produce. For
+ * example, two rows are parallel at a dead centre, but only one of the paths is curved; or two stops on one path have
+ * different restitutions. For each contact in `repeats` (bits of indices in member[]), push[] gets the sign of the
+ * missing acceleration or rate, or 0. way[] is the change of the accelerations by all forces. In an impact, impulse[]
+ * is not NULL, and way[] is the change of the rates by all impulses. The curvature term J' q' is also tested by itself:
+ * in a slow motion the round-off of the accelerations would hide it. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -145,9 +145,9 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way if the redundant contact member[i] needs a force in direction `push`. A friction, or
- * a stop that would have to pull, gives way itself. Otherwise the contact whose force first reaches a limit gives way.
- * Returns its index in member[] and, in *limit, that limit; or returns `count` if no contact gives way. */
+/* Finds the contact that gives way if the force of the redundant contact member[i] grows in direction `push`. If this
+ * contact is a friction or would have to pull, it gives way itself. Otherwise the other contact whose force reaches a
+ * limit first does. Returns its index in member[] (or `count`) and, in *limit, that limit (-1 or 1). */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -295,7 +295,7 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* gives way, even within round-off */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* gives way despite a zero residual */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }

@@ -73,9 +73,9 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
     }
 }
 
-/* Call wh_books_look() before the projection of a contact, and wh_books_moved() after it. The difference of the
- * accounts is the contact's entry. It is dropped if it is within round-off: in float, the noise of many steps would
- * exceed the true entries. */
+/* Call wh_books_look() before the projection of a contact, and wh_books_moved() after it. The second call adds the
+ * changes of the energy and the momenta to the contact's entries. It drops changes within round-off: in float, their
+ * sum over many steps would exceed the true entries. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_state *s, const wh_real *input) {
     if (wh_books_open(of, w)) {

@@ -13,9 +13,9 @@ typedef struct wh_margins {
     wh_real all;
 } wh_margins;
 
-/* The path over `h` seconds. Positions follow the cubic through both ends' positions and rates, rates the cubic through
- * both ends' rates and accelerations a0 and a1. (The slope of the first cubic would be one order less accurate, and
- * magnify the positions' round-off by 1/h.) */
+/* The path over `h` seconds. Its positions follow the cubic that has the positions and rates of both ends. Its rates
+ * follow the cubic that has the rates and accelerations (a0, a1) of both ends. (The slope of the first cubic would be
+ * one order less accurate, and magnify the positions' round-off by 1/h.) */
 typedef struct wh_contact_path {
     wh_real h;
     wh_contact_point begin;
@@ -185,8 +185,8 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
 }
 
 /* A hold whose condition was zero within round-off when the trial step began is released only if the condition falls
- * below -work->slack. If such a hold has no event at the trial step's end (`events`, bits), it has none in between: a
- * lower condition there would be an error of the cubic. */
+ * below -work->slack. If the hold has no event at the end of the trial step (`events`, bits), a lower condition before
+ * the end is an error of the cubic, and is ignored. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -265,14 +265,14 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     }
     wh_real reach = WH_R(1.0);
     wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* interval widths before the last two probes */
-    /* largest interval after the next probe from which the remaining probes reach WH_BRACKET by halving */
+    /* largest width after the next probe. From this width, the remaining probes still reach WH_BRACKET by halving */
     wh_real most = WH_PROBES_SPARE;
     for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* A margin of zero at `low` may be the start of an event. Exceptions: a sliding friction; and, after the
-             * first probe, a force at its limit, because other contacts may bear part of the load. */
+            /* If a margin is zero at `low`, its event may begin there. That is not so for a sliding friction or, after
+             * the first probe, for a force at its limit: other contacts may bear part of the load. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -281,9 +281,9 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* The guess is slightly past the root, as seen from the nearer end, so that the interval closes from both
-         * sides. If the root is not between that end and the guess, the next guess is further past the root. If two
-         * probes did not halve the interval, the guess is its middle. */
+        /* The guess is slightly beyond the estimated root, as seen from the nearer end, so that the root probably lies
+         * between that end and the guess. If it does not, the next guess is further beyond. If two probes did not halve
+         * the interval, the guess is its middle. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;

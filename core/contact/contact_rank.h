@@ -1,7 +1,7 @@
 /* contact_rank.h: detects positions at which holds lose rank: their rows of the Jacobian become linearly dependent.
  *
- * An example is the flat position of a linkage that holds close. From there more than one motion satisfies the holds,
- * and an integrator would pick one at random. So a step that reaches or passes such a position is refused.
+ * An example is a linkage that is closed by holds, in its flat position. From there more than one motion satisfies the
+ * holds, and an integrator would pick one at random. So a step that reaches or passes such a position is refused.
  *
  * Each row is made orthogonal to the earlier ones in the metric of M^-1 (Gram and Schmidt). If the remainder of a row
  * vanishes, the step has reached such a position; if the remainder has reversed its direction, the step has passed one.
@@ -71,8 +71,8 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* The row of a single hold must have turned by almost half a turn: a smaller rotation shows only that the step
-         * is coarse. */
+        /* A single hold has lost rank only if its row has turned by almost half a turn. If the row has turned less, the
+         * step is merely coarse. */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {

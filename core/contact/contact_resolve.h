@@ -3,9 +3,9 @@
  * wh_contact_resolve() takes all contacts with an event at once, so the order in which contacts are declared does not
  * matter, except for the assignments of crossings:
  *
- * 1. Velocities: stops that are hit get their impulses, then holds that capture. The hits are one linear
- * complementarity problem with the active contacts, the captures another. Friction's normal force is finite and gives
- * no impulse.
+ * 1. Velocities: one linear complementarity problem gives the impulses of the stops that are hit and of the active
+ * contacts. Then a second one gives those of the holds that capture and of the active contacts. Friction gives no
+ * impulse, because its normal force is finite.
  *
  * 2. Crossings make their assignments, and the contacts that an assignment disturbs are revised.
  *
@@ -19,9 +19,9 @@
  *      v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-.
  *
  * For each k at least one of the two inequalities is an equality. Resting and held contacts take part with J_k v- = 0
- * and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is
- * never positive, because only closing stops take part, even with different restitutions. A touching stop that closes
- * because of an impact is hit in the next round, at the same time. So an impact runs through a row of balls. */
+ * and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. Even
+ * with different restitutions, that is never positive, because only closing stops take part. A touching stop that
+ * closes because of an impact is hit in the next round, at the same time. So an impact runs through a row of balls. */
 #ifndef WH_CONTACT_RESOLVE_H
 #define WH_CONTACT_RESOLVE_H
 
@@ -30,8 +30,8 @@
 /* --- disturbance by crossings -------------------------------------------------------------------- */
 
 /* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A body beyond
- * a stop is moved back onto it. A stop that moved, in either direction, does not rest any more. Active holds capture
- * again if their condition is still true. The ledger enters the energy under the crossing. */
+ * a stop is moved back onto it, and the crossing's entry in the ledger gets the change of energy. A stop that moved, in
+ * either direction, does not rest any more. Active holds capture again if their condition is still true. */
 static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -78,9 +78,9 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
 }
 
-/* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise the
- * friction whose force exceeds its limit by the largest factor, and frictions with an equal factor: under a load that
- * grows from zero, these would slide first. The caller then tests the other frictions again. */
+/* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise these
+ * are the frictions with the largest ratio of force to limit, because they would slide first under a load that grows
+ * from zero. The caller then tests the other frictions again. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
@@ -100,11 +100,11 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sets the direction of each sliding friction to the sign of its rate, with two exceptions:
- * - A rate that is opposite to the direction only by the error of location (work->slack) does not change it.
- * - A friction whose rate has just come to zero sticks until wh_contact_give_way() decides. There are two such cases:
- * the rate is negligible, compared with its change by friction in the time h; or the friction is in `zeros` (bits), and
- * no impulse of this moment changed the rate.
+/* Sets the direction of each sliding friction to the sign of its rate, with three exceptions:
+ * - The direction stays if the rate is opposite to it only by the error of location (work->slack).
+ * - If the rate is negligible, compared with its change by friction in the time h, the friction sticks until
+ * wh_contact_give_way() decides.
+ * - A friction in `zeros` (bits) also sticks until then, unless an impulse of this moment changed its rate.
  *
  * If h is not 0, work->law must belong to the position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
@@ -136,9 +136,9 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Returns, as bits, resting stops without load (within round-off) that push in the same direction as a stop in `gone`
- * (bits). The caller releases them, too: redundant supports lose their load at the same time, and round-off would hit
- * and release any support that stayed. */
+/* Returns, as bits, the resting stops without load (within round-off) that push in the same direction as a stop in
+ * `gone` (bits). The caller releases them with `gone`, because redundant supports lose their load at the same time. A
+ * support that stayed would be released and hit again because of round-off. */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -199,9 +199,9 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Sets the rates of the stuck frictions in work->turned to zero, together with those of all active contacts, so that
- * two frictions do not release each other. The other frictions in work->turned keep their sliding direction, even if
- * the small remaining rate has the opposite sign. */
+/* Sets the rates of the stuck frictions in work->turned to zero. The same projection includes all active contacts,
+ * because otherwise two frictions could release each other. The other frictions in work->turned keep their sliding
+ * direction, even if the small remaining rate has the opposite sign. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -268,14 +268,14 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
         wh_contact_stick(of, w, rate);
     }
     for (unsigned k = 0; k < of->forced; k++) {
-        /* no event: the release of another contact has relieved contact k */
+        /* A contact in `must` that is still active has no event. */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
 }
 
-/* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces keep the
- * rate growing. A stuck friction slides if an impulse has changed its rate. */
+/* Ends a step of length h with too many events. A friction whose rate has passed zero sticks if its force is then
+ * within its limit. A stuck friction slides if an impulse has changed its rate. */
 static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                       const wh_real *input, wh_contact_state *s) {
     wh_contact_moment end = {0, 0, h, true};
@@ -317,10 +317,10 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Adapts contacts to an input whose rate changed between two steps, except for the contacts in `but` (bits). A resting
- * stop stays active if its pressing force can bring the body to the new rate within the step. Otherwise it opens
- * (returned as bits, with `but`) or is hit (*hits, bits). Impulses correct the rates of the other active contacts.
- * work->law must belong to the position. */
+/* Adapts the active contacts outside `but` (bits) to an input whose rate changed between two steps. A resting stop
+ * stays active if its pressing force can bring the body to the new rate within the step. Otherwise it opens, or is hit
+ * if the gap closes. Impulses correct the rates along contacts that stay active. Returns `but` and the stops that open;
+ * *hits gets those that are hit (both as bits). work->law must belong to the position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {
@@ -350,8 +350,8 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
 }
 
 /* Adapts contacts to inputs that changed between two steps. The body on a moved stop is moved back onto it, or falls if
- * the pressing force cannot close the gap within the step. Holds are projected, too. The ledger enters the energy under
- * the contact. */
+ * the pressing force cannot close the gap within the step. Holds are projected, too. The ledger's entry of the last
+ * moved contact gets the change of energy. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
