@@ -23,12 +23,12 @@
 #include "options.h"
 #include "trusting.h"
 
-/* AXES: axes of a map. PAIRS_MOST: most pairs of values. */
+/* A map sweeps AXES quantities, with at most PAIRS_MOST pairs of values. */
 enum { AXES = 2 };
 #define PAIRS_MOST 250000
 /* Limit of the operations of a map without --effort. */
 #define EFFORT 1.5e11
-/* Approximate operations of checks, balance and comparison per step, besides the step's lists. */
+/* Approximate operations per step of checks, balance and comparison. Those of the image's lists are not included. */
 #define OPERATIONS_A_STEP 200.0
 
 static const command_usage sweep_usage = {
@@ -96,9 +96,9 @@ typedef struct sweep_options {
     const char *command;
     common_options common;
     const char *target;
-    const char **over; /* [number of command-line words] */
+    const char **over; /* [over_count] */
     int over_count;
-    const char **measure; /* [number of command-line words] */
+    const char **measure; /* [measure_count] */
     int measure_count;
     /* as typed, or NULL */
     const char *from, *csv, *shard_text, *plot;
@@ -182,7 +182,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
     return code;
 }
 
-/* Reads --from, which may name parameters, and --measure, to be freed. Returns NULL after an error. */
+/* Reads --from into s->from_s. Returns the measures of --measure, which the caller frees; NULL after an error. */
 static measures *take_measures(const sweep_options *o, sweep *s, diags *errors) {
     const mechanism *of = s->mechanism;
     if (o->from != NULL &&
@@ -195,7 +195,7 @@ static measures *take_measures(const sweep_options *o, sweep *s, diags *errors) 
     return wanted;
 }
 
-/* Do --from and the ends of all points fit the run? If not, reports the reason. */
+/* Returns false, reported, if --from is after the end, or if sweep_ends_are_alike() is false. */
 static bool ends_fit(const sweep *s, const loaded *base) {
     if (s->from_s > base->instance->until_s) {
         return options_fail("sweep", "--from %.9g s is after the end, %.9g s", s->from_s,

@@ -207,7 +207,7 @@ int command_trust(int count, char **words) {
     }
     trust_options o = {
         .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
-    bool proved; /* never read: the row makes the help list --proved, which take_proved() handles */
+    bool proved; /* never read: its row is for the hint "did you mean --proved?" */
     const own_option own[] = {OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1.5e11"),
                               {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN_LATE},

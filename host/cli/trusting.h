@@ -1,4 +1,4 @@
-/* trusting.h: the common parts of `whirl trust` and `whirl run`: the step in fixed point, and the limit of --effort. */
+/* trusting.h: parts that several commands share: the step in fixed point, and the limit of --effort. */
 #ifndef CLI_TRUSTING_H
 #define CLI_TRUSTING_H
 
@@ -7,7 +7,7 @@
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
 
-/* Makes *plan, the step in fixed point, to be freed. Measures undeclared ranges in a run. Returns an exit status. */
+/* Makes *plan, the fixed-point step, which the caller frees. A run measures undeclared ranges. Returns an exit status. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
 /* Is this number of operations within --effort? If not, reports the estimated time of `what`, and `hint`. */

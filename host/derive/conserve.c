@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* === the influences on a coordinate, and of a coordinate ====================================== */
+/* === forces on a coordinate, and forces that depend on it ===================================== */
 
 /* Finds the first force, loss or contact that changes the momentum of unknown i. Returns its word, such as "the Q". */
 static const char *influence_on(const equations *e, int i, place *at) {
@@ -29,7 +29,7 @@ static const char *influence_on(const equations *e, int i, place *at) {
             return contact_called(law->from->kind);
         }
     }
-    return "nothing"; /* not reached: driven coordinates cannot be conserved */
+    return "nothing"; /* not reached: only a driven coordinate has no cause, and no scene conserves one */
 }
 
 /* Does a force, a loss or a contact depend on the coordinate's position? Energies are not checked. */
@@ -220,7 +220,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* if a force depends on the coordinate, `closed` is false: G(q) = G(q0) + p t, and a step does not know t */
+    /* if a force depends on the coordinate, a step cannot use G(q) = G(q0) + p t, because it does not know t */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (energy_momentum_is_linear(e, i)) {
         return true;

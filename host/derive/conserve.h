@@ -7,7 +7,8 @@
  *
  * so X' follows from the other rates. If the momentum is the rate of a function G(q), such as total mass times centre
  * of mass, X follows, too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and their drift is round-off
- * only. Otherwise, or if a force or contact depends on X, X is integrated from X': a step does not know t. */
+ * only. If there is no G(q), X is integrated from X'. X is also integrated if a force or contact depends on it, because
+ * G(q0) + p t contains t, which a step does not know. */
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H
 

@@ -1,4 +1,4 @@
-/* diagnostic_expressions.c: the expressions as written in the model file, and the derivatives of energies and gaps. */
+/* diagnostic_expressions.c: translation of the model file's expressions, and of their slopes, into nodes. */
 #include "diagnostic_expressions.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include "host/base/alloc.h"
 
-/* Nodes of polys or of atoms: node[id] is the node's number plus one, or 0 if there is none yet. */
+/* node[id] - 1 is the node already made of the poly or atom with this id. If node[id] is 0, there is none yet. */
 typedef struct known {
     int *node;
     unsigned room;

@@ -48,8 +48,8 @@ bool contact_laws_push(const contact_laws *laws, int i);
 
 /* === forces =================================================================================== */
 
-/* The forces of one statement Q or F, Q_i or -dF/dq_i', and their power sum_i force_i q_i', which is positive if it
- * adds energy. The equations of motion, the power balance and the ledger use them. */
+/* Forces of one statement: force[i] is Q_i or -dF/dq_i'. Their power is sum_i force[i] q_i'. If it is positive, the
+ * mechanism gains energy. */
 typedef struct statement_force {
     const term *from;
     const poly **force; /* [coordinates] of the mechanism */
@@ -74,17 +74,18 @@ typedef struct equations {
     int count;         /* number of unknowns, and of equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
-    /* relative error of the accelerations from the rounding of mass[], at the tried state where it is smallest */
+    /* relative error of the accelerations from the rounding of mass[]: the smallest of the tried states */
     double mass_blur;
-    folding folding;       /* constant folding of the file's numbers */
+    folding folding;       /* records the losses of constant folding */
     const poly **velocity; /* [count] centrifugal and Coriolis terms; zero for a system */
-    /* [count] dV/dq; for a system: left minus right side, without the highest derivatives */
+    /* [count] dV/dq. For a system: left minus right side of each equation, without the highest derivatives */
     const poly **potential;
-    const poly **applied; /* [count] Q - dF/dq'; zero for a system */
+    /* [count] Q - dF/dq'. For a driven coordinate: its acceleration. For a system: zero */
+    const poly **applied;
     /* Energies and results derived from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;
-    statement_force *force; /* [forces] the forces of each statement; applied[] is their sum */
+    statement_force *force; /* [forces] one for each active statement Q or F */
     int forces;
     const poly **momentum;  /* [count] dL/dq' */
     bool *conserved;        /* [count] momentum[i] is constant: no force, no potential, no loss */
@@ -114,20 +115,18 @@ const poly *equations_force(const equations *e, int i);
 const poly *equations_fold(const equations *e, const poly *p);
 
 /* === the energy in the balance ================================================================ */
-/* Lagrange's equations with forces Q and a dissipation function F change the energy integral (Jacobi's)
+/* The balance uses the energy integral h (Jacobi's):
  *
- *     h = sum_i q_i' dL/dq_i' - L,      dh/dt = sum_i q_i' (Q_i - dF/dq_i') - (dL/dt of the inputs),
+ *     h = sum_i q_i' dL/dq_i' - L,      dh/dt = sum_i q_i' (Q_i - dF/dq_i') - (dL/dt of the inputs).
  *
- * and no other sum of energies (Goldstein, Classical Mechanics, section 2.7). If T is a homogeneous quadratic form of
- * the rates and V contains no rate, h is T + V. Otherwise, as on a turntable, in a magnetic potential or at
- * relativistic speeds, T + V also changes by work that no statement of the file mentions, such as that of the
- * turntable's drive. */
+ * Only the forces Q, the dissipation function F and the inputs change h (Goldstein, Classical Mechanics, section 2.7).
+ * If T is a homogeneous quadratic form of the rates and V contains no rate, h is T + V. Otherwise T + V also changes by
+ * work that no statement of the file mentions, such as that of the drive of a turntable. */
 
-/* Returns h, with folded constants, or NULL for a system. If h equals T + V, returns NULL and adds no expression to the
- * algebra, so that the generated code does not change. */
+/* Returns h, with folded constants. Returns NULL for a system, or if h equals T + V. */
 const poly *energy_integral(const equations *e);
 
-/* Unknown i is driven, that is, an input with a rate. Returns the power of its drive. Contacts are not included. */
+/* Returns the power of the drive of unknown i, a driven coordinate. The forces of contacts are not included. */
 const poly *energy_drive(const equations *e, int i);
 
 /* Is p_i = sum_j m_ij q_j'? */

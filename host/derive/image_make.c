@@ -40,7 +40,7 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* The most subexpressions that is_written() examines. Each level of lets may double them, as in p*p with p = q*q. */
+/* is_written() examines at most this many subexpressions. Each let may double them, as in p*p with p = q*q. */
 enum { MOST_PARTS = 1000 };
 
 /* Is the expression made of literal numbers, without sums and calls? Otherwise a value near zero may be round-off. */
@@ -243,8 +243,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     }
     image_draft *d = &p->draft;
     image *im = d->made;
-    /* The step's list is scaled if the step is compensated. Exceptions: variants, which never run in float; contacts,
-     * which use the same mass matrix; and tables, which are rounded separately. */
+    /* Scales the list of a compensated step. Exceptions: variants never run in float, the lists of contacts use the
+     * step's mass matrix, and tables are rounded separately. */
     if (settings->compensated && im->contacts == 0 && settings->tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&im->list[IMAGE_STEP], op_list_scaling_price(im->list[IMAGE_STEP]));
@@ -276,7 +276,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
     *im = *base;
     im->memory = memory;
     im->base = base->base != NULL ? base->base : base;
-    im->finer = NULL; /* that of `base` has other starts */
+    im->finer = NULL; /* the finer image of `base` has the starts of `base` */
     time_it(im, inst);
     im->unknown = copy(&d, base->unknown, im->count, sizeof *im->unknown);
     for (int i = 0; i < im->count; i++) {
@@ -299,7 +299,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding loses more than this, relative to an addend or a result, an image to run or to check gets variants. */
+/* If the largest loss (folding.h) exceeds this, an image to run or to check gets variants with other foldings. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
@@ -321,7 +321,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* Evaluates and derives the scene again in another way of folding. Returns NULL if is_alike() is false. */
+/* Makes the scene's image again in another way of folding. Returns NULL if that fails, or if it is not alike `im`. */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

@@ -1,12 +1,12 @@
-/* image_make.h: the last stage of every derivation: the image (host/image/image.h). */
+/* image_make.h: construction of the image (host/image/image.h) of an instance from its equations. */
 #ifndef DERIVE_IMAGE_MAKE_H
 #define DERIVE_IMAGE_MAKE_H
 
 #include "host/derive/equations.h"
 #include "host/image/image.h"
 
-/* An image to run also has the expressions that may be undefined, as the file writes them, for messages
- * (host/check/nonfinite.h). An image to check also has the image of its finer run (image.finer). */
+/* Images to run and to check have image.diagnostics, so that messages can point at an undefined expression. An image to
+ * check also has the image of its finer run (image.finer). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
 /* Returns an image with the lists of `base`, and the starts, inputs, step and end of `inst`, an instance of the same

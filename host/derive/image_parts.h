@@ -7,7 +7,7 @@
 
 typedef struct image_draft {
     image *made;
-    /* [sources] sources of places, and their copies; the arrays, too, are in the image's memory */
+    /* [sources] the sources to which places refer, and their copies. The arrays, too, are in the image's memory. */
     const source **original;
     source **copy;
     int sources;

@@ -1,4 +1,4 @@
-/* lagrange.c: Lagrange's equations, systems given by their equations, and the refusal of singular ones. */
+/* lagrange.c: Lagrange's equations, systems given by their equations, and the test that they can be solved. */
 #include "host/derive/lagrange.h"
 
 #include <math.h>
@@ -138,7 +138,7 @@ static bool mass_at(const equations *e, int try, double *m, double *error) {
     return finite;
 }
 
-/* Returns the mass matrix's first row that depends on the rows above it, at the first try with finite values, or -1. */
+/* Takes the first tried state with a finite mass matrix. Returns the first row that depends on rows above it, or -1. */
 static int dependent_row(const equations *e) {
     const int n = e->count;
     double *m = room_for(n);
@@ -226,7 +226,7 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* Returns the term of T that is negative at the most tried states (*most: their number); NULL if none ever is. */
+/* *most: the largest number of tried states at which one term of T is negative. Returns this term; NULL for 0. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -289,7 +289,7 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
-/* Constants in the energies vanish from the equations, but are checked, too: a 1/0 in one is a mistake of the user. */
+/* Are T and V finite? A constant 1/0 in them is a mistake of the user, although no equation contains it. */
 static bool energies_finite(const equations *e, generic_state *state) {
     return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
@@ -536,7 +536,7 @@ static const poly **polys(algebra *a, int count) {
 
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
-        return true; /* the result is then incomplete */
+        return true; /* the expressions are incomplete */
     }
     double size = 0.0;
     for (int i = 0; i < e->count; i++) {
