@@ -7,7 +7,7 @@
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
 
-/* Makes *plan, the fixed-point step, which the caller frees. A run measures undeclared ranges. Returns an exit status. */
+/* Makes *plan, a step in fixed point. The caller frees it. A run measures undeclared ranges. Returns an exit status. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
 /* Is this number of operations within --effort? If not, reports the estimated time of `what`, and `hint`. */
