@@ -19,12 +19,11 @@ enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,
     WH_FRAME_READINGS = 3,
-    WH_FRAME_RESET = 4,    /* wh_reset, to a restarted controller before its first readings */
-    WH_FRAME_REMEMBER = 5, /* before the orders: up to WH_REMEMBER_MAX bytes that survive a reset */
-    /* For a line that does not show when a controller starts or ends: ASK requests the hello again, before the first
-     * readings. END comes instead of orders: the program has ended, with its exit status in the payload (4 bytes). */
-    WH_FRAME_ASK = 6,
-    WH_FRAME_END = 7
+    WH_FRAME_RESET = 4,    /* the plant sends wh_reset after a reset, before the first readings */
+    WH_FRAME_REMEMBER = 5, /* before its orders, the controller sends bytes for the next wh_reset */
+    /* These two are for a line on which the plant cannot see that a controller starts or ends. */
+    WH_FRAME_ASK = 6, /* before the first readings, the plant requests the hello again */
+    WH_FRAME_END = 7  /* a controller that ends sends its exit status (4 bytes) instead of orders */
 };
 
 #define WH_SIGNALS_MAX 20U /* all kinds together */
@@ -54,7 +53,7 @@ typedef struct wh_hello {
     const char *board;
     uint32_t ticks_per_s; /* rate of all time stamps */
     uint32_t timer_per_s; /* rate of the timer that measures computing time; 0: no such timer */
-    uint32_t start_ticks; /* the timer's reading at the plant's time 0 */
+    uint32_t start_ticks; /* time stamp at the plant's time 0 */
     const wh_signal *signal;
     unsigned signals;
 } wh_hello;
@@ -130,8 +129,8 @@ unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room);
 unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned room);
 unsigned wh_reset_put(const wh_reset *reset, uint8_t *bytes, unsigned room);
 
-/* Read a payload. Returns false if it is invalid: too short, too long, or with unknown counts or kinds. The strings
- * of a hello point into `bytes`; its signals go to signal[WH_SIGNALS_MAX]. */
+/* Read a payload. Returns false if its length is wrong, a count is above its limit, or a kind or cause is unknown.
+ * The strings of a hello point into `bytes`. The signals of a hello go to signal[WH_SIGNALS_MAX]. */
 bool wh_hello_get(wh_hello *hello, wh_signal *signal, const uint8_t *bytes, unsigned length);
 bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length);
 bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length);

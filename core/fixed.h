@@ -45,7 +45,7 @@ WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
 }
 
 /* 16 x 16 = 32 bit products of unsigned (u) and signed (s) numbers. On an AVR they are in assembly, because avr-gcc
- * makes a 32-bit product of a C expression if an operand is used again. */
+ * computes a C expression as a 32 x 32 bit product if one of its operands is also used elsewhere. */
 #if WH_FIXED_AVR
 WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
     uint32_t product;
@@ -163,7 +163,7 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
-/* Returns x >> by; if by is 7 or 15, |x| < 2^30. An AVR shifts whole bytes at no cost, other amounts bit by bit. */
+/* Returns x >> by. If `by` is 7 or 15, |x| must be below 2^30. Shifts by whole bytes cost an AVR nothing. */
 WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #if WH_FIXED_AVR
     return by == 7    ? (x + x) >> 8
@@ -212,9 +212,9 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
 }
 #endif
 
-/* Sine and cosine of a phase (2^32 per turn), scaled by 2^30: the method of sine.h in integers. s and c are the table's
- * values nearest to the phase, r is the remaining angle: sin = s + (c sin r + s (cos r - 1)). y is r / (pi/128) in
- * units of 2^-31. Small terms are 16-bit products. */
+/* Sine and cosine of a phase (2^32 per turn), times 2^30: the method of sine.h in integers. s and c are the sine and
+ * cosine of the nearest angle in the table. r is the difference from this angle: sin = s + (c sin r + s (cos r - 1)).
+ * y is r in units of 2^-31 pi/128. Small terms are 16-bit products. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
     const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
@@ -222,7 +222,7 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t *middle = &wh_fixed_sine_table[sector];
     const int32_t s = wh_flash_int32(&middle[0]);
     const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
-#if WH_FIXED_AVR /* phase << 7 as a shift by a byte and back by a bit */
+#if WH_FIXED_AVR /* phase << 7: one byte to the left, then one bit to the right */
     const int32_t y = (int32_t)((phase << 8) >> 1 |
                                 ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
 #else
@@ -232,7 +232,7 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
     const int16_t cos_less_1 =
         (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* units of 2^-26 */
-    /* In units of 2^-35, sin_r is y 25735/2^16 plus a small part, which includes the sine's third-order term. */
+    /* sin_r is in units of 2^-35. 25735/2^16 is nearly pi/8; `rest` has the remainder and the third-order term. */
     const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
     const int32_t sin_r =
         wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);

@@ -70,7 +70,7 @@ static wh_real scaled(wh_real value, int bits) {
 
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated) {
     const wh_real number = scaled(value, format->bits);
-    const wh_real high = (wh_real)format->high; /* float: rounded by up to 64 */
+    const wh_real high = (wh_real)format->high; /* if wh_real is float, this rounds by up to 64 */
     const wh_real low = (wh_real)format->low;
     const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of high */
     if (!(number > low)) {

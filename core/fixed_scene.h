@@ -25,7 +25,7 @@
 
 WH_C_BEGIN
 
-/* A value is stored as value 2^bits, limited to low..high. */
+/* A value v is stored as the integer v 2^bits, limited to low..high. */
 typedef struct wh_fixed_format {
     int16_t bits;
     int32_t low;
@@ -50,7 +50,7 @@ struct wh_fixed_scene {
     uint8_t reals;
     uint8_t inputs;
     uint64_t steps;                /* number of steps from the start to the scene's end */
-    const wh_fixed_format *format; /* [reals + inputs]: of the reals, then of the inputs */
+    const wh_fixed_format *format; /* [reals + inputs]: the reals' formats, then the inputs' */
     const int64_t *start_angle;
     const int32_t *start_real;
     const int32_t *start_input;
@@ -85,9 +85,10 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 /* Returns a hash of steps, saturations, angles and reals, equal on all machines; 0 for a state that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of the format, ties away
- * from zero. A value beyond the range gives the nearer end, and NaN the low end; both increment *saturated. A value up
- * to one unit beyond an end (float: plus the end's round-off) counts as inside, because the end may be rounded. */
+/* Conversions in floating point; no step calls them. wh_fixed_of() rounds to the nearest number, ties away from zero;
+ * if wh_real is double, it rounds numbers from 2^23 on towards zero. A value beyond the range gives the nearer end, and
+ * NaN the low end; both increment *saturated. Because the ends may be rounded, a value up to one unit (float: plus the
+ * end's round-off) beyond an end is not counted. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

@@ -27,7 +27,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
     for (unsigned k = 0; k < of->held; k++) {
         w->held[k] = state->held[k];
     }
-    if (of->forced > 1) { /* a single contact needs no load sharing */
+    if (of->forced > 1) { /* a single contact needs no pivoting */
         w->capped = false;
     }
     w->undefined = -1;
@@ -90,8 +90,8 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Computes a trial step of length `left` to `next`, which is a copy of the start on entry. `now`, the start, is needed
- * only for holds that can slip. */
+/* Computes a trial step of length `left`. On entry a->next must be the step's start; on return it is the end. a->now
+ * must also be the start if there are holds that can slip; otherwise it is not used. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -116,8 +116,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Sets work->slack of each active hold whose condition was zero within round-off when the trial step began: the hold
- * stays active while its condition is that small. */
+/* Sets work->slack of each active hold to the round-off of its condition, or to 0 if the condition was farther from
+ * zero than that when the trial step began. The hold stays active until its condition is below -slack. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -264,14 +264,14 @@ typedef struct wh_contact_progress {
     wh_real reach;   /* length of the next trial step, s: shorter than `left` after a dip */
     unsigned round;  /* number of moments so far, at most WH_EVENTS_MAX */
     unsigned events; /* events at attempt->now, as bits */
-    unsigned flat;   /* the hold that lost rank; of->contacts: none */
+    unsigned flat;   /* the hold that lost rank (contact_rank.h), or of->contacts */
     bool calm;       /* the step ended without an event, and all values that it used were finite */
     bool diverged;   /* a trial step left the bounds */
     bool overran;    /* there were too many events */
     bool done;
 } wh_contact_progress;
 
-/* If no trial step was made yet, sets the modes at the start of a run, or adapts the contacts to changed inputs. */
+/* If no trial step was made yet: sets the modes if the run starts, otherwise adapts the contacts to changed inputs. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
     wh_contact_state *now = &p->attempt->now;
@@ -310,7 +310,7 @@ static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_
     p->done = true;
 }
 
-/* Accepts the trial step: it reached the step's end, or a point at which a dip was suspected but not found. */
+/* Accepts the trial step. It ended at the step's end, or at a suspected dip where it did not touch the stop. */
 static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_contact_work *w,
                                             wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -331,7 +331,7 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     if (p->round == WH_EVENTS_MAX) {
         p->overran = p->overran || !p->calm;
         wh_contact_overrun(of, w, p->h, p->input, &a->next);
-        p->calm = false; /* the values after wh_contact_overrun() must also be finite */
+        p->calm = false; /* so that undefined values of wh_contact_overrun() are refused */
     }
     p->end = &a->next;
     p->done = true;
@@ -381,7 +381,7 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     wh_contact_attempt_dipped(of, w, p->reach, p->input, a);
     if (a->dips != 0 && p->round + 2U < WH_EVENTS_MAX) {
         const wh_real share = wh_contact_dip(of, a, p->input);
-        if (share < WH_R(1.0)) { /* the next trial step ends at the dip, which counts as a moment */
+        if (share < WH_R(1.0)) { /* the next trial step ends at the dip and counts as a moment */
             p->reach *= share;
             p->round++;
             return;
@@ -398,8 +398,8 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     }
 }
 
-/* Resolves the events at attempt->now. A stop that comes to rest at the step's last moment might have bounced, so the
- * step then counts as an overrun. */
+/* Resolves the events at attempt->now. At the last moment that a step allows, a stop may come to rest although it
+ * would bounce. So if a stop comes to rest there, the step counts as an overrun. */
 static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
                                               wh_contact_progress *p) {
     const bool last = ++p->round == WH_EVENTS_MAX;
@@ -430,7 +430,7 @@ static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_
     return WH_OK;
 }
 
-/* Does a step with events; a->made: the first trial step was already made. Returns as wh_step_contact() does. */
+/* Does a step with events. If a->made, `a` has its first trial step already. Returns as wh_step_contact() does. */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
     wh_contact_log log;
@@ -456,8 +456,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
 }
 
 /* Does one step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact
- * in state->fault. Only values that the step uses must be finite: a trial step may leave an expression's domain after
- * the event to which it is then shortened. */
+ * in state->fault. Only values that the step uses must be finite. A trial step may leave an expression's domain after
+ * an event, because the step is then shortened to end at this event. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;

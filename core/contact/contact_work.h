@@ -23,7 +23,7 @@
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda, from the last evaluation of the accelerations */
-    /* acceleration along a constraining contact, to be produced by its force; index as in wh_contact_members() */
+    /* wanted[i]: acceleration that the contact forces must add along contact member[i] of wh_contact_members() */
     wh_real wanted[WH_CONTACTS_MAX];
     wh_real rough[WH_CONTACTS_MAX]; /* sum of |terms| of the acceleration along each contact */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
@@ -33,22 +33,22 @@ typedef struct wh_contact_work {
     /* bits: frictions whose rate has just come to zero: they may stick or slide on */
     unsigned turned;
     /* 0, except in three cases:
-     * - sliding friction: the error of the located rate, rad/s or m/s
-     * - crossing that turned back: the distance beyond zero within which a passage is no second event
-     * - hold whose condition was zero within round-off when the trial step began: a condition down to -slack is true */
+     * - sliding friction: a backward rate up to `slack` (rad/s or m/s) is an error of location
+     * - crossing that turned back: passing zero is a second event only if the value goes more than `slack` beyond
+     * - hold with a condition that was zero within round-off: it stays active until the condition is below -slack */
     wh_real slack[WH_CONTACTS_MAX];
     /* Crossing that turned back: distance from zero beyond which the crossing has a sign again. */
     wh_real due[WH_CONTACTS_MAX];
-    /* Crossing whose sign is undecided: its value when the trial step began, or when the sign became undecided. */
+    /* Crossing whose sign is undecided: its value when the step began or, if later, when the sign became undecided. */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates when the present moment began */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, indexed by wh_contact.first_set */
     unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
     unsigned mover; /* the crossing whose assignments set `moved` */
-    /* bits: crossings of this moment whose values are zero or next to zero */
+    /* bits: crossings whose values are zero at this moment, within the error of the located time */
     unsigned stands;
-    /* True if the present moment was located in time, and no contact has been moved since. A crossing's value past zero
-     * is then an error of location. */
+    /* True if this moment's time was located, and no contact has been moved since. If a crossing with an event then has
+     * a nonzero value, the cause is the error of the located time. */
     bool located;
     bool capped;   /* the pivoting reached its limit of rounds */
     int fault;     /* component that was assigned a value beyond its range, or -1 */
@@ -64,8 +64,8 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* The scene's contacts in a function that is not inlined. A compiler that optimizes for size may not propagate
- * constants into it, and gcc then warns of loops without a bound. So this macro refers to the constant itself. */
+/* `of`, for functions that may not be inlined. If gcc optimizes for size, it may not know the scene's constant in them,
+ * and then warns of loops without a bound. So this macro names the constant, WH_CONTACTS_OF(), instead of `of`. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
@@ -223,10 +223,10 @@ WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_con
     return wh_delassus(of, w, k, k);
 }
 
-/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without
- * pivoting, because the matrix is positive definite except for redundant contacts. Redundant contacts get zero (NaN if
- * their wanted value is not finite); the function returns them, as bits of their indices in member[]. Contacts with
- * at[] != 0 also get zero; `at` may be NULL. */
+/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[] by elimination. Pivoting is
+ * not needed, because the matrix is positive definite except for redundant contacts. Returns the redundant contacts, as
+ * bits of their indices in member[]. Their lambda is 0 (NaN if their wanted value is not finite). If `at` is not NULL,
+ * lambda[i] is also 0 for each i with at[i] != 0. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,
