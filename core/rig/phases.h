@@ -35,13 +35,13 @@ typedef struct wh_run_config {
     wh_real take_over_radps; /* speed at which the control loop closes */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    /* Half-width of the band about the target, for the speed of a turn or the mean of WH_RUN_TURNS. */
+    /* The speed of the last turn, or the mean of the last WH_RUN_TURNS, may differ from the target by this much. */
     wh_real settle_band_radps;
-    wh_real settle_s;          /* time within the band */
+    wh_real settle_s;          /* least time within the band before the record */
     wh_real settle_max_s;      /* longest time to settle */
     wh_real short_max_s;       /* longest time with too low a supply */
     wh_real record_band_radps; /* half-width of the band for each turn of the record */
-    wh_real slow_radps; /* speed at which the ramp down ends, unless the set-point is lower */
+    wh_real slow_radps; /* the ramp down ends at this speed, or at the target if that is lower */
 } wh_run_config;
 
 /* While the rig settles, the mean of this many whole-turn speeds is compared with the set-point. Two sensors give two
@@ -62,7 +62,7 @@ typedef struct wh_run {
     wh_real left_radps;
     uint32_t tare_pulses[WH_RIG_SENSORS];
     uint32_t turns;                   /* turns counted while the run settles and records */
-    uint32_t turns_taken;             /* accepted pulses when the last of these turns ended */
+    uint32_t turns_taken;             /* speed.taken when the last of these turns was counted */
     wh_real turn_radps[WH_RUN_TURNS]; /* speeds of the last turns */
     wh_real mean_radps;               /* mean of turn_radps */
     wh_drive drive;
@@ -117,15 +117,15 @@ const char *wh_phase_text(wh_rig_phase phase);
 
 /* === bounds on the speed and time of the next slot pulse, from the drive's set-point ========= */
 
-/* Sets bounds and window of the pulse captured at `ticks`, and run->left_radps. Call it before wh_pulses_take(), with
- * the motor on or off. `open`: the motor neither drives nor brakes, so the bound allows for a lighter rotor, whose
- * speed gravity changes more. */
+/* Sets run->left_radps, and the bounds and the window of *pulses for the pulse captured at `ticks`. Call it before
+ * wh_pulses_take(), with the motor on or off. If the motor neither drives nor brakes, `open` is true. The bound then
+ * allows for a lighter rotor, because gravity changes its speed more. */
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks);
 
 /* Lowers run->off_radps to the speed since the last pulse. Call it before wh_pulses_take(), with the motor off. If a
- * sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is then unknown. If
- * `brakes`, pulses->slow may be set. */
+ * sensor fires twice in succession, this forgets the speed, because the rotor swings in the slot or a pulse was missed.
+ * It also sets or clears pulses->slow, which needs `brakes`. */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 

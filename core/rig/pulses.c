@@ -26,7 +26,7 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Returns the ticks from a pulse to its predicted time, a turn after its sensor's last pulse; 0 if unknown. */
+/* Returns by how many ticks a pulse is early, if expected `turn` ticks after its sensor's last one; 0 if unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -76,8 +76,8 @@ static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
 }
 
-/* Accepts a pulse that gives the speed `after`. pulses->before must be the speed without this pulse, and without a
- * rejected pulse just before it. */
+/* Accepts a pulse that gives the speed `after`. pulses->before must be the speed before this pulse. If this pulse
+ * replaces the last one, pulses->before must not include that one. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
@@ -114,8 +114,8 @@ static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->doubt += doubt;
 }
 
-/* Decides about a suspect when the next pulse comes. The suspect is rejected if a false pulse is likely, and likelier
- * than two true pulses. */
+/* Decides about a suspect when the next pulse comes. The suspect is rejected if the next pulse gives a likely speed
+ * without it, and if the two pulses are of one sensor or do not fit together. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
@@ -124,8 +124,8 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* Both pulses may be true if no pulse was lost in between. At any speed, two true pulses are likelier than a false
-     * pulse together with a lost one. */
+    /* Both pulses may be true if no pulse was lost in between and their speed is likely. If a false suspect would also
+     * mean a lost pulse, any speed fits, because a false pulse together with a lost one is less likely. */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
@@ -179,7 +179,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* A second short interval, or a second early pulse, is no disturbance. */
+    /* After a short interval or an early pulse, a second one shows a faster rotor, not a disturbance. */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;
@@ -191,7 +191,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
-    /* A pulse also counts as early if the rotor should slow down but does not. */
+    /* A pulse also counts as early if the speed rises by more, or falls by less, than climb_radps2 allows. */
     if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
         pulses->alert = true;
     }

@@ -2,12 +2,11 @@
  *
  * Noise must neither count as a pulse nor cause the next true pulse to be rejected. Therefore:
  *
- * - A pulse is a suspect if it is early (before the window around the time predicted from the last turn) or would need
- * a speed above bound_radps. The next pulse decides: two successive short intervals show that the rotor is that fast.
- * - If a pulse comes impossibly soon after the last one, one of the two is false: the one closer to its predicted time
- * stays, the other is rejected.
- * - A pulse is confirmed and goes to the measurement when no later pulse can reject it: an eighth of a turn later, or
- * at the next pulse. */
+ * - A pulse is a suspect if it comes before its predicted time by more than `window`, or if it would need a speed above
+ * bound_radps. The next pulse decides: two successive short intervals show that the rotor is that fast.
+ * - If a pulse comes impossibly soon after the last one, the one that is further from its predicted time is rejected.
+ * - A pulse is confirmed when no later pulse can reject it: an eighth of a turn later, or at the next pulse. Then it
+ * goes to the measurement. */
 #ifndef WH_RIG_PULSES_H
 #define WH_RIG_PULSES_H
 
@@ -22,29 +21,29 @@ typedef struct wh_pulse {
     unsigned sensor; /* 0 or 1 */
 } wh_pulse;
 
-/* A confirmed pulse: the index pulse of a sensor. */
+/* An index pulse: a slot pulse that no later pulse can reject. */
 typedef struct wh_index_pulse {
     wh_pulse pulse;
     uint32_t quarter; /* the rotor's position, quarter turns, wrapping */
-    bool gap;         /* the number of turns before this pulse is unknown */
+    bool gap;         /* the number of turns since the previous pulse is unknown */
 } wh_index_pulse;
 
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is set: the next pulse decides about it */
     bool waits;    /* the last pulse is not yet confirmed */
-    bool alert;    /* the last pulse was a little early; a second one is no disturbance */
-    /* Set by the caller: motor off, rotor almost at rest. One interval far faster than the bound counts as two. */
+    bool alert;    /* the last pulse was early. If the next one is, too, the rotor is faster */
+    /* Set by the caller: motor off, rotor almost at rest. An interval far above bound_radps then counts as two. */
     bool slow;
     wh_real bound_radps;  /* set by the caller: limit on the speed between two pulses, or 0 */
     wh_real window;       /* set by the caller: fraction of a turn by which a pulse may be early */
     wh_real climb_radps2; /* set by the caller: limit on the rise of the turns' speed */
-    /* excess of the last turn's speed over the rise by climb_radps2, or 0 */
+    /* rise of the turns' speed at the last pulse, minus the rise that climb_radps2 allows; 0 if that is negative */
     wh_real climb_radps;
-    wh_real climb_before_radps; /* the same excess at the previous pulse */
+    wh_real climb_before_radps; /* climb_radps at the previous pulse */
     unsigned fast;              /* number of successive intervals with a speed above bound_radps */
-    unsigned alternate; /* successive pulses, each after one of the other sensor; 0 in a swing */
-    unsigned doubt;     /* false pulses (no bounces) add 2 each, expected ones subtract 1 */
-    uint32_t rejected;  /* number of rejected pulses */
+    unsigned alternate;         /* number of successive pulses that alternate between the sensors */
+    unsigned doubt;    /* each false pulse (no bounce) adds 2; each unsuspicious one subtracts 1 */
+    uint32_t rejected; /* number of rejected pulses */
     wh_pulse suspect;
     wh_index_pulse last; /* the last pulse */
     wh_speed speed;      /* speed from the accepted pulses */
@@ -57,7 +56,7 @@ typedef struct wh_pulses {
 /* Begin with an unknown state. impossible_radps is that of wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
 
-/* Restart with an unknown state; the counters stay. */
+/* Restart as wh_pulses_start() does, with the same impossible_radps. The counters become 0. */
 void wh_pulses_forget(wh_pulses *pulses);
 
 /* Process a pulse of sensor 0 or 1 captured at `ticks`, in the order of time. */

@@ -7,29 +7,29 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Largest part of gravity that may remain with compensation. A larger one means a compensation with a wrong angle or
- * size, and an unknown torque on the arms. */
+/* Largest part of gravity that the compensation may leave. If it leaves more, its angle or size is wrong. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* Allowed error of the speed ripple, beyond the phase's half-width, for a rotor whose damping is not the configured
- * one. The quadrature ratio transfers 1/sqrt(2) of the ripple's error to the phase. */
+/* The ripple's error may exceed the phase's half-width by this much, because the rotor's damping may differ from the
+ * configured one. The quadrature ratio transfers 1/sqrt(2) of the ripple's error to the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared): REPEATS_NOISE for the
- * sum of eight squares (four harmonics), THIRD_NOISE for the two squares of the third harmonic. The third contains the
- * whole effect of a nonlinearity, or of a torque twice per turn. */
+/* Limits on sums of squared coefficients, in units of a coefficient's variance. Noise alone exceeds each of them in one
+ * of 100,000 results (chi-squared). REPEATS_NOISE is for four harmonics (eight coefficients), THIRD_NOISE for the third
+ * alone (two). The third contains the whole effect of a nonlinearity, or of a torque twice per turn. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Coefficients of the repeating residual of a healthy rig, as a part of the force (tests/host/test_repeats_truth.c). */
-#define REPEATS_LAG WH_R(0.4)    /* times psi E^2: damping */
-#define REPEATS_ARROW WH_R(1.6)  /* times E and the error of the speed ripple */
-#define REPEATS_CUT WH_R(0.29)   /* times `cut`: a motor that cannot brake enough */
-#define REPEATS_TWICE WH_R(6.0)  /* times A: the ripple of a carriage */
+/* The sum of these terms limits a healthy rig's repeating residual, as a fraction of the force, without noise and
+ * jitter (tests/host/test_repeats_truth.c). turn_angle.h defines psi, E, A and `cut`. */
+#define REPEATS_LAG WH_R(0.4)    /* times psi E^2: effect of the damping */
+#define REPEATS_ARROW WH_R(1.6)  /* times E and ripple_off_rad */
+#define REPEATS_CUT WH_R(0.29)   /* times `cut`: effect of a motor that cannot brake enough */
+#define REPEATS_TWICE WH_R(6.0)  /* times A: effect of the carriage */
 #define REPEATS_CELL WH_R(1e-4)  /* constant: nonlinearity of the cell */
-#define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples */
+#define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples, rad^2 */
 
-/* Repeating residual because of the pulses' jitter, as a part of the force, per radian of jitter in one turn. */
+/* Repeating residual of one turn, as a fraction of the force, per radian of the pulses' jitter. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -109,8 +109,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* The expected force is S <w^2>. The mean over the angle contains 3/2 of the squared ripple. A term of twice the
-     * angle makes the speed vary by twice its amplitude. */
+    /* The expected force is S <w^2>, a mean over the angle. A term E sin u of theta multiplies <w^2> by 1 + 3/2
+     * E^2. The term A sin(2u) counts as E = 2 A, because it changes the speed by the fraction 2 A. */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -138,18 +138,18 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
     }
 }
 
-/* Returns the phase's variance because of the pulses' jitter, without the part that the turns' scatter shows. */
+/* Returns the part of the phase's variance that the pulses' jitter causes and the turns' scatter does not show. */
 static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* A turn's phase has the mean error of two pulses, so half their variance; the mean of n turns has 1/n of it. */
+    /* Turns share pulses, so the mean of n phases has the variance jitter2/n. The scatter shows half of it. */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->ratios == 0) {
         return shared;
     }
-    /* The ratio follows from three pulses. With sensor 2 at a quarter turn, their parts of the variance are 1, 9/16 and
-     * 1/16, together 1.625. On average half of the turns in the ratio's estimate are also merged, and have the same
-     * pulses. */
+    /* The quadrature ratio follows from three pulses. With sensor 2 at a quarter turn, they add 1, 9/16 and 1/16 of a
+     * pulse's variance, together 1.625. The 1.0 is the covariance with the phases: on average, half of the merged turns
+     * are in the ratio's estimate. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);
@@ -196,7 +196,7 @@ WH_INLINE void jitter_of_pulses(const wh_merge *merge, wh_measured *measured) {
     }
 }
 
-/* Computes the squared scatter along the mean and across it, stored temporarily in the half-widths. */
+/* Stores the squared scatter temporarily in the half-widths: along the mean force vector, and across it, N^2. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -222,8 +222,8 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* A wrong angle of the compensation leaves a ripple a quarter turn after that of E. The quadrature ratio
-         * mistakes it for a change of E. */
+        /* If the compensation's angle is wrong, another ripple remains, a quarter turn after E's. The quadrature
+         * ratio mistakes it for a change of E. */
         .quadrature =
             angle->compensated ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
@@ -289,11 +289,11 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
 }
 
-/* Returns the length of the difference between the speed ripple found from the load and that of the angle model. A
- * ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is
- * 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple changes the second order
- * by 3/2 of the error, and through the model's angle by another 1/2; so the difference is halved. Twice the phase of
- * the first order is subtracted, so the result hardly depends on a delay, and not on the cell's gain. */
+/* Returns the length of the difference between two vectors: the speed ripple found from the load, and that of the angle
+ * model. A ripple has the length E and the direction psi - gamma. The force's second order has the same direction, and
+ * 3/2 E/(1 + 3/2 E^2) times the amplitude of the first order. An error of the model's ripple changes the second order
+ * by 3/2 of the error. It also changes the model's angle, which adds 1/2. So the difference is halved. A delay has
+ * hardly any effect, because twice the first order's phase is subtracted. The cell's gain has none. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
@@ -317,15 +317,15 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                          REPEATS_ARROW * swing * measured->ripple_off_rad +
                          REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
                          REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
-    /* A coefficient over N samples of variance s^2 has variance 2 s^2/N; s^2 is half the mean squared difference. */
+    /* A coefficient's variance is 2 s^2/samples. The noise's variance s^2 is half of the mean squared change. */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
     const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
     return WH_SQRT(REPEATS_NOISE * noise_N2 +
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
-/* If the motor cannot brake enough, the residual does not show errors of the cell. So force and phase must agree with
- * the expected values within their intervals, plus these errors of the expected values. */
+/* If the motor cannot brake enough, the residual does not show errors of the cell. So force and phase may differ from
+ * the expected values only by their half-widths, plus these possible errors of the expected values. */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 
@@ -391,7 +391,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    /* the ripple's error hardly depends on the calibration */
+    /* seen_rad leaves out the calibration's part, because the ripple's error hardly depends on the calibration */
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);

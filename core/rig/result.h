@@ -7,10 +7,10 @@
  * pulse. The jitter follows from the second differences of the pulses' times.
  * - quadrature ratio (phase): the rotor's inertia, or the uncompensated part of gravity, is estimated from pulses with
  * the same jitter.
- * - angle: the error of the angle within the turn because of the damping's tolerance and the neglected third order.
- * With gravity compensation, also because of an error of the compensation's angle, and of a motor that cannot brake as
- * much as commanded. On a carriage (amplitude), also because of the moving mass's tolerance.
- * - drift (phase): the angle is computed for a constant mean speed within a turn.
+ * - angle: the angle within the turn has errors, because the damping has a tolerance and the third order is neglected.
+ * Gravity compensation adds two errors: that of its angle, and that of a motor that cannot brake as much as commanded.
+ * A carriage adds an error of the amplitude, because the moving mass has a tolerance.
+ * - drift (phase): the speed may change within a turn, but the angle is computed for a constant mean speed.
  * - floors: the configured calibration uncertainties; 0.5 % and 0.5 degrees before calibration. */
 #ifndef WH_RIG_RESULT_H
 #define WH_RIG_RESULT_H
@@ -52,7 +52,7 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* cell force divided by that on a fixed mount: 1, or M/(M + m) (rig.h) */
+    wh_real mount_factor; /* factor on the cell's force: 1, or M/(M + m) on a carriage (rig.h) */
     /* Calibration uncertainties at 95 %: a fraction of the force, and an angle. 0: uncalibrated. */
     wh_real amplitude_floor;
     wh_real phase_floor_rad;
@@ -63,12 +63,12 @@ typedef struct wh_result_config {
     wh_real phase_wrong_rad;
     wh_real residual_large;
     wh_real mean_off;
-    wh_real inertia_off; /* fraction of the configured inertia */
+    wh_real inertia_off; /* allowed difference from the configured inertia, as a fraction */
 } wh_result_config;
 
 /* The turns merged so far. All zeros: no turns. */
 typedef struct wh_merge {
-    bool follows; /* the last turn was used: differences to the next one count */
+    bool follows; /* the last turn was used: the next turn's duration is compared with its own */
     bool second_follows;
     uint32_t turns;
     uint32_t left_out;
@@ -76,7 +76,7 @@ typedef struct wh_merge {
     uint32_t outliers;
     uint32_t second_turns; /* turns in the mean at_pulse_N[1] */
     wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
-    uint32_t jitters;      /* second differences in jitter_s2 */
+    uint32_t jitters;      /* number of second differences in jitter_s2 */
     uint32_t first_ticks;  /* durations of the first and the last used turn */
     uint32_t last_ticks;
     uint32_t second_turn_ticks;
@@ -85,7 +85,7 @@ typedef struct wh_merge {
     wh_real repeats_N2; /* squared amplitudes of the harmonics evaluated so far */
     wh_real third_N2;   /* squared amplitude of the third harmonic */
     wh_repeats repeats;
-    wh_real in_phase_N; /* means over the turns */
+    wh_real in_phase_N; /* components of the first order, means over the turns */
     wh_real quadrature_N;
     wh_real second_N[2]; /* components of the second order: cosine, sine */
     /* sums of products of deviations: in phase squared, in phase times quadrature, quadrature squared */
@@ -113,14 +113,15 @@ typedef struct wh_measured {
     wh_real amplitude_half_N; /* half-width of the interval, 95 % */
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
-    wh_real expected_N;      /* amplitude expected from masses, speed and mount */
-    wh_real residual_N;      /* rms after orders 0 to 2 */
-    wh_real repeats_N;       /* residual's harmonics 3 to 6, or 1.27 times the third if larger */
+    wh_real expected_N; /* amplitude expected from masses, speed and mount */
+    wh_real residual_N; /* rms of the load without its orders 0 to 2 */
+    /* amplitude of the residual's harmonics 3 to 6 together, or 1.27 times that of the third if this is larger */
+    wh_real repeats_N;
     wh_real repeats_limit_N; /* largest repeats_N of a healthy rig with this noise */
     wh_real jitter_s;        /* standard deviation of the pulse times */
     wh_real inertia_kgm2;
-    wh_real ripple_off_rad; /* size of the ripple's error vector, from the load's second order */
-    wh_real uncompensated_part; /* part of gravity, as a magnitude; 0 without compensation */
+    wh_real ripple_off_rad; /* error of the angle model's ripple, from the load's second order */
+    wh_real uncompensated_part; /* fraction of gravity's torque, >= 0; 0 without compensation */
     wh_real at_pulse_N[2];      /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
@@ -140,7 +141,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 #define WH_MERGE_MEAN_PIECES 6U
-/* Compute means and half-widths in pieces. mean_N and at_pulse_N are without tare_N. With one turn half-widths are 0.
+/* Compute means (mean_N and at_pulse_N minus tare_N) and half-widths in pieces. With one turn, half-widths are 0.
  * Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
