@@ -58,12 +58,12 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
  * sin 2kx is sin x cos x times such a sum of degree n - 1. If the sum vanishes at x = 0, the coefficient of c^n is
  * zero, and the products keep the digits that the sum loses by cancellation. At x = pi/2 the same is true of s^n. */
 
-#define SAME_PIECE 1e-13 /* relative difference of coefficients that come from one number */
+#define SAME_PIECE 1e-13 /* coefficients with a smaller relative difference count as equal */
 #define CANCELLED 1e-14  /* a sum below this, relative to its addends, counts as zero */
 #define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
 #define INDICES (MULTIPLE_MAX + 1)
-/* If the largest values of the products add up to more than this times the sum of |c_k|, the sum is not rewritten.
- * Otherwise it could lose more digits at other angles than it gains near the zero. */
+/* A family is not rewritten if the bounds of its products add up to more than this times the sum of |c_k|. Otherwise
+ * the products could lose more digits at other angles than they gain near x = 0 or x = pi/2. */
 #define GROWTH_MAX 8.0
 
 /* Compares by member, because padding bytes between a 32-bit pointer and a double are undefined. */
@@ -89,7 +89,7 @@ typedef struct family {
     trig trig;                   /* TRIG_COS: c_k cos 2kx; TRIG_SIN: c_k sin 2kx */
     int last;                    /* largest k */
     double coefficient[INDICES]; /* c_k */
-    int member[INDICES];         /* number of the poly's term with c_k, or -1 */
+    int member[INDICES];         /* index of the poly's term that has c_k, or -1 */
     int members;
 } family;
 
@@ -134,7 +134,7 @@ static bool collect(const poly *p, const bool *used, int base, family *f) {
     return true;
 }
 
-/* The sum of coefficient[j] s^j c^(degree-j). added[j]: the sum of its addends' absolute values. */
+/* The sum of coefficient[j] s^j c^(degree-j). added[j]: the sum of the absolute values of coefficient[j]'s addends. */
 typedef struct expansion {
     int degree;
     double coefficient[INDICES];
@@ -149,8 +149,8 @@ static void times_one(double *p, int degree) {
     }
 }
 
-/* Returns the family's sum, without the factor sin x cos x. P_k is cos 2kx, or sin 2kx / (sin x cos x): P_0 = 1, or P_1
- * = 2, then P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
+/* Returns the sum of c_k P_k. P_k is cos 2kx in a family of cosines, sin 2kx / (sin x cos x) in a family of sines. The
+ * recurrence P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1) begins with P_0 = 1 (cosines) or P_1 = 2 (sines). */
 static expansion expand(const family *f) {
     const int first = f->trig == TRIG_SIN ? 1 : 0;
     double before[INDICES + 1] = {0};
@@ -166,7 +166,7 @@ static expansion expand(const family *f) {
             sum.coefficient[j] += f->coefficient[k] * now[j];
             sum.added[j] += fabs(f->coefficient[k] * now[j]);
         }
-        /* P_1 = cos 2x is (c - s) P_0, without the factor 2 of the recurrence */
+        /* the first step of the cosines has no factor 2: P_1 = cos 2x = (c - s) P_0 */
         const double turn = k == 0 ? 1.0 : 2.0;
         double next[INDICES + 1] = {0};
         for (int j = 0; j <= degree + 1 && j < INDICES; j++) {
@@ -301,7 +301,7 @@ struct wave {
     int cosine;
 };
 
-#define PARTS_MAX 96 /* number of smallest known angles that are tried as parts of another */
+#define PARTS_MAX 96 /* number of waves, from the first, that rule_for() tries as p */
 #define BETWEEN_MAX 32
 
 static int find(const lowering *l, const poly *angle) {
@@ -412,8 +412,8 @@ static bool has_part(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Removes angles with fractions of turn angles, which occur only in records. Their sines are evaluated for full
- * precision. No other sine is computed from them, so that records do not change the bits of other results. */
+/* Removes the angles that contain a fraction of a turn angle: only records have such angles. Their sines are evaluated
+ * directly. Because no other sine is computed from them, a record does not change the bits of other results. */
 static int without_parts(const lowering *l, const poly **angles, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
@@ -466,7 +466,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* The operation for an angle's phase: turn angles times numbers, a fixed offset, and the other terms in radians. */
+/* Enters an angle's phase. A term is a multiple of a turn angle, a constant offset, or an expression in radians. */
 static int phase_of(lowering *l, const poly *angle) {
     double *multiple = alloc(l->list->angles, sizeof *multiple);
     double offset = 0.0;
@@ -503,13 +503,13 @@ static int wave_enter(lowering *l, wave w, trig which) {
     if (w.rule == WAVE_EVALUATED) {
         return op_list_unary(t, sine ? OP_SIN : OP_COS, phase_of(l, w.angle));
     }
-    if (w.rule == WAVE_DOUBLE) { /* 2 cos sin, or 2 cos cos - 1 */
+    if (w.rule == WAVE_DOUBLE) { /* sin 2p = 2 cos p sin p, cos 2p = 2 cos p cos p - 1 */
         const int c = wave_node(l, w.p, TRIG_COS);
         const int twice = op_list_mul(t, op_list_constant(t, 2.0), c);
         const int product = op_list_mul(t, twice, wave_node(l, w.p, which));
         return sine ? product : op_list_sub(t, product, op_list_constant(t, 1.0));
     }
-    /* sin cos and cos sin, or cos cos and sin sin */
+    /* sin(p + q) = x + y and cos(p + q) = x - y; if q is subtracted, the signs are opposite */
     const int x = waves_product(l, w.p, which, w.q, TRIG_COS);
     const int y = waves_product(l, w.p, sine ? TRIG_COS : TRIG_SIN, w.q, TRIG_SIN);
     return (w.rule == WAVE_SUM) == sine ? op_list_add(t, x, y) : op_list_sub(t, x, y);
@@ -625,7 +625,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a tangent of turn angles is sine / cosine; others are calls of tan(): a phase resolves only 1.5e-9 rad */
+    /* a tangent without turn angles calls tan(), because a phase would round its argument to 1.5e-9 rad */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
@@ -705,7 +705,7 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
         }
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
-        /* sum_of_like() subtracts negative products, so with -size outside, `part` has the wrong sign */
+        /* sum_of_like() subtracts the nodes of negative products: with the factor -size, `part` is minus the sum */
         sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
                            : op_list_add(t, sum, part);
     }
@@ -715,7 +715,7 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
     return sum;
 }
 
-/* Returns the node that the most products share, or -1. Rates are preferred, so that sums of sines are not split. */
+/* Returns the node that the most products share, or -1. In a tie a rate wins, so that sums of sines are not split. */
 static int most_shared(lowering *l, const node_product *products, int count) {
     int best = -1;
     int best_uses = 1;
@@ -788,7 +788,7 @@ int lower_sum(lowering *l, node_product *products, int count) {
         }
         with[in++] = *p;
     }
-    bool negative = out > 0; /* a negative sum is subtracted: no operation for its sign */
+    bool negative = out > 0; /* subtracts a sum of negative products: saves a negation */
     for (int i = 0; i < in; i++) {
         negative = negative && with[i].coefficient < 0.0;
     }

@@ -17,10 +17,10 @@ typedef struct piece {
     int cosines;
 } piece;
 
-/* Converts sums that cancel at x = 0 or x = pi/2, and so lose all digits near it, to powers, which keep them: c (1 -
- * cos 2x) = 2 c sin(x)^2. Others are c (3 - 4 cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates), and
- * the derivatives: 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x). x must be a whole multiple of the coordinates. Writes to
- * piece[p->count]; returns the number of pieces. */
+/* Rewrites sums that cancel at x = 0 or x = pi/2 as powers. Near these angles a sum loses all digits, but a power keeps
+ * them. Examples: 1 - cos 2x = 2 sin(x)^2; 3 - 4 cos 2x + cos 4x = 8 sin(x)^4 (at the poles of spherical coordinates);
+ * 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x). In x, the coefficient of each term must be a whole number. Writes to
+ * pieces[p->count]. Returns the number of pieces. */
 int pieces_of(algebra *a, const poly *p, piece *pieces);
 
 typedef struct wave wave;
@@ -33,7 +33,7 @@ typedef struct lowering {
     /* the index of the symbol's turn angle, or -1 */
     int (*turn)(void *context, const symbol *sym);
     void *context;
-    /* rank by size of the planned angle that is evaluated first, 0 for the smallest */
+    /* lower_plan() sorts the angles by size, and begins with the one of this rank (0: the smallest) */
     int lead;
     wave *waves;
     int wave_count;
@@ -74,7 +74,7 @@ static inline bool lower_is_tangent(const atom *x) {
     return x->kind == ATOM_CALL && x->function == FN_TAN;
 }
 
-/* Does `sym` occur in p only inside sines and cosines, with whole factors? Then it can be a turn angle. */
+/* Can `sym` be a turn angle? It can if p contains it only in sines, cosines and tangents, and times whole numbers. */
 bool lower_only_in_waves(const poly *p, const symbol *sym);
 
 #endif

@@ -87,7 +87,7 @@ static bool step(const image *im, const op *o, const double_double *all, double_
         }
         return true;
     case OP_PHASE:
-    case OP_CELL: return true; /* no coefficients: an operation on such a value is not affine */
+    case OP_CELL: return true; /* sets no coefficients: no operation that reads it is affine */
     case OP_SIN:
     case OP_COS:
     case OP_LINE:
@@ -288,8 +288,8 @@ static void balance(double_double *a, double *unit, int states, int columns) {
     }
 }
 
-/* An entry below this, relative to the largest in its row in balanced units, becomes zero. Example: the last of twenty
- * masses in a row contributes 1e-60 to the first one's motion within a millisecond, below the range of float. */
+/* An entry becomes zero if it is below this part of its row's largest entry (in balanced units). Example: in a chain of
+ * twenty masses, the last contributes 1e-60 to the first one's motion in a millisecond, too little for a float. */
 #define LEAST_PART 0x1p-100
 
 static void drop_least(double_double *step, int states, int columns) {
@@ -387,7 +387,7 @@ static int leaf(const image *im, op_list *t, int column) {
                           : op_list_leaf(t, OP_RATE, real - linears);
 }
 
-/* Enters the sum of a row's entries, rounded by constant(), times their columns. */
+/* Enters the sum of all columns' operations, each times the row's entry. constant() rounds the entries. */
 static int enter_row(const image *im, op_list *t, const double_double *row,
                      double (*constant)(double_double entry)) {
     int sum = op_list_constant(t, 0.0);
@@ -400,7 +400,7 @@ static int enter_row(const image *im, op_list *t, const double_double *row,
     return sum;
 }
 
-/* Enters a row after adding 1 to its entry in column `of`. If the sum is near 1, only its difference from 1 is rounded. */
+/* Enters a row with 1 added to row[of]. If row[of] is small, the 1 is entered separately: row[of] keeps its digits. */
 static int enter_near(const image *im, op_list *t, double_double *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = double_double_add(row[of], double_double_of(1.0));
@@ -415,8 +415,8 @@ static double rest(double_double entry) {
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* Enters the mean rate of turn angle i over a step of length h: its change row[], divided by h. In second order, the
- * coefficient of the angle's own rate is near 1. */
+/* Enters the mean rate of turn angle i over a step: row[], the angle's change, divided by the step's length h. In a
+ * scene of second order, the coefficient of the angle's own rate is near 1. */
 static int enter_angle(const image *im, op_list *t, double_double *row, int i, double_double h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);

@@ -12,8 +12,8 @@
 /* Number of columns of x' = A x + B u + c: states (angles first), inputs, and the constant. */
 int affine_columns(const image *im);
 
-/* Computes rates[states * columns], the coefficients of the states' rates, by rows, in double-double. So the
- * round-off is only that of the list's constants. If the list is not affine, returns false, without rates[]. */
+/* Computes rates[states * columns] = A | B | c, row by row. Because rates[] is double-double, its only round-off is
+ * that of the list's constants. Returns false without setting rates[] if the list is not affine. */
 bool affine_rates(const image *im, double_double *rates);
 
 /* Makes the matrix and its list, as the settings of the otherwise complete image require. Returns false (reported) if

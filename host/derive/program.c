@@ -87,7 +87,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n; i++) { /* J has driven coordinates, too: they move the contact */
+        for (int i = 0; i < n; i++) { /* J includes driven coordinates: they move the contact */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
@@ -110,7 +110,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     return t;
 }
 
-/* If the row's only nonzero entry is a number, returns its coordinate's number in the scene; otherwise -1. */
+/* If the row J has only one nonzero entry, a constant, returns its coordinate's index in the scene; otherwise -1. */
 static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -141,7 +141,7 @@ static int component_of(const layout *map, const assignment *set) {
     return -1;
 }
 
-/* Returns 2 if an input with a rate moves the stop, 1 if another input moves it between steps, 0 if it is fixed. */
+/* Returns the `direction` of a stop (core/contact.h). */
 static int stop_moves(const equations *e, const contact_law *law) {
     const mechanism *m = e->instance->mechanism;
     int moves = law->driven ? 2 : 0;
@@ -151,7 +151,7 @@ static int stop_moves(const equations *e, const contact_law *law) {
     return moves;
 }
 
-/* Makes row k of the contacts, and counts holds without a pin and the values that crossings set. */
+/* Fills *row from `law`. Also counts holds without a pin (pin_of() is -1), and the values that crossings set. */
 static void make_row(program *p, const contact_law *law, image_contact *row) {
     image *im = p->draft.made;
     const layout *map = &p->layout;
@@ -377,7 +377,6 @@ static bool make_ledger(program *p, diags *errors) {
     if (l->kept) {
         im->list[IMAGE_POWERS] = enter_ready(map, to.power, l->smooth);
         im->list[IMAGE_LEVELS] = make_levels(l, p->integral, map);
-        /* in the rates of entries, an angle may also occur outside sines and cosines */
         l->turned = op_list_reads_turns(im->list[IMAGE_POWERS]);
     } else {
         diag_error(errors, m->at, "leave the ledger out: --without ledger",
@@ -497,7 +496,7 @@ static op_list *make_step(layout *map, const linear_system *s) {
     return t;
 }
 
-/* Makes a list that computes `wanted` from the highest derivatives. If `keep`, these are the list's first results. */
+/* Makes a list that computes `wanted`. If `keep`, its first results are the unknowns' highest derivatives. */
 static op_list *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
                               int count, bool keep) {
     const equations *e = map->equations;
@@ -628,7 +627,7 @@ static bool steps_need_no_turns(const image *im, const equations *e, diags *erro
     return true;
 }
 
-/* Makes the ledger that the instance or a stabilized step needs. A balance with contacts gets one, too, if possible. */
+/* Makes a ledger if one is needed. If only a balance with contacts needs it, a failure is no error. */
 static bool make_ledger_asked(program *p, diags *errors) {
     image *im = p->draft.made;
     const equations *e = p->layout.equations;

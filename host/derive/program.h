@@ -8,7 +8,7 @@
 
 /* The ledger. By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, the other
  * coordinates' motion) and by each generalized force, damper and contact. The energy changes by the work of forces,
- * dampers and contacts, and by each change of an input in the energies. If the energy integral is not T + V, the
+ * dampers and contacts. It also changes with every input that T or V contains. If the energy integral is not T + V, the
  * ledger has the integral instead of the energy (equations.h). */
 
 typedef struct program {
