@@ -788,7 +788,7 @@ int lower_sum(lowering *l, node_product *products, int count) {
         }
         with[in++] = *p;
     }
-    bool negative = out > 0; /* subtracts a sum of negative products: saves a negation */
+    bool negative = out > 0; /* a sum of negative products is subtracted: this saves a negation */
     for (int i = 0; i < in; i++) {
         negative = negative && with[i].coefficient < 0.0;
     }
