@@ -44,7 +44,7 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* Integer arithmetic up to the final rounding: the product of two rounded floats would have an error above one ulp. */
+/* Uses integers up to the final rounding, because a product of two rounded floats would have an error above one ulp. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {
         return 0.0f;
@@ -57,14 +57,14 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     }
     const uint64_t two_pi = UINT64_C(3373259426); /* 2^29 * 2 pi */
     const uint64_t product = (size >> 32) * two_pi + (((size & UINT32_MAX) * two_pi) >> 32);
-    /* Sticky bit: the rounding below must not take a value just above a tie for the tie. */
+    /* Sticky bit: without it, the rounding below would treat a value just above a tie as the tie. */
     const uint32_t bits = (uint32_t)(product >> 32) | ((uint32_t)product != 0 ? 1U : 0U);
     const float magnitude = (float)bits * scale;
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. A negative angle is taken as an
- * unsigned number, 2^64 too large: its product is factor.part too large. */
+/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. As an unsigned number, a negative
+ * angle is 2^64 too large, so its product is too large by factor.part, which is subtracted. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

@@ -38,9 +38,9 @@
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* The search for an event takes at most WH_PROBES probes: four more than bisection needs to shrink the interval to
- * WH_BRACKET times its first length. The spare probes allow better guesses than the middle: after n probes the interval
- * is at most WH_PROBES_SPARE / 2^(n - 1) of it. Usually six to ten probes reach WH_BRACKET_FINE, set by round-off. */
+/* The search for an event takes at most WH_PROBES probes, four more than bisection would need to shrink the interval to
+ * WH_BRACKET times its first length. After n probes, its length is at most WH_PROBES_SPARE / 2^(n - 1) times the first.
+ * Usually, six to ten probes shrink it to WH_BRACKET_FINE, a limit set by round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -74,8 +74,8 @@ enum {
     WH_LIMITED = 4     /* slides if its force reaches a limit; an impact gives it no impulse */
 };
 
-/* X(kind, traits), in the order in which contacts are numbered. If you add a kind, the compiler reports only the switch
- * of contact_locate.h; CONTRIBUTING.md says how to find the other lines. The language's row is in host/lang/words.h. */
+/* X(kind, traits), in the order in which contacts are numbered. A new kind also needs a row in host/lang/words.h. The
+ * compiler finds only some of the other lines to change; CONTRIBUTING.md says how to find all of them. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \
@@ -92,12 +92,12 @@ typedef enum wh_contact_kind {
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
-    /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with a
-     * rate does. Hold: 1 if its expression is straight (J_k constant), -1 if an input with a rate moves it. Else 0. */
+    /* Crossing: +1 rising, -1 falling, 0 both. Stop: 2 if an input with a rate moves it, 1 if another input moves it.
+     * Hold: 1 if its expression is straight (J_k constant), -1 if an input with a rate moves it. Otherwise 0. */
     int8_t direction;
     /* If the expression has one coordinate and J_k is constant (J_k' is 0): that coordinate's index. Otherwise -1. */
     int16_t pin;
-    uint8_t first_set; /* index of a crossing's first assignment, or of a hold's value in held[] */
+    uint8_t first_set; /* crossing: its first index in target[]; hold: its index in held[] */
     uint8_t sets;
 } wh_contact;
 
@@ -109,23 +109,23 @@ enum {
     WH_LAW_ROWS    /* index of J_k[0] */
 };
 
-/* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
+/* Maximum number of evaluations of the accelerations in one step. Each evaluates `forces` at most once.
  *
- * In each of WH_EVENTS_MAX rounds:
+ * Each of WH_EVENTS_MAX rounds needs evaluations for:
  * - Two trial steps, one to the step's end and one to the event. Each takes `stages` evaluations, up to three to
  *   project the slip, and one at its end.
- * - The search: one at its begin and one at each probe; or only two, at begin and end, if no event depends on a force.
- * - Events: two for an impact, one for a capture, three for assignments; for n released contacts, n + 1.
+ * - The search: one at its begin and one at each probe. If no event depends on a force, only two: at begin and end.
+ * - Events: two for an impact, one for a capture, three for assignments, n + 1 for n released contacts.
  *
- * Once: the last trial step, its three projections, settling the modes, and updating coordinates that follow inputs. */
+ * Once in a step: the last trial step, its projections, settling the modes, and coordinates that follow inputs. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Most evaluations of `signals` in one step: one with each evaluation of the accelerations above, except those at the
- * stages and at a search's two ends. Another one compares a trial step's begin with its end. A capture takes one, a
- * crossing two, and crossings that may turn back two. The last one finds crossings at zero when the step begins. */
+/* Maximum number of evaluations of `signals` in one step. Each evaluation of the accelerations needs one, except those
+ * at the stages and at the two ends of a search. One more compares the begin of a trial step with its end. A capture
+ * needs one, a crossing two, and crossings that may turn back two. One finds crossings at zero when the step begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 

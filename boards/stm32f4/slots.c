@@ -1,6 +1,6 @@
 /* slots.c: the slot sensors on two inputs of timer 2, which stores the time of an edge in hardware (RM0090, 18.3.5),
- * after a filter of 12 us. Channels 1 and 2, 3 and 4 are pairs that can use each other's input (18.3.6): the input's
- * own channel captures rising edges, the other one falling edges. So the end of a pulse never overwrites its begin. */
+ * after a filter of 12 us. Both channels of a pair (1 and 2, or 3 and 4) can capture the same input (18.3.6). One gets
+ * a sensor's rising edges, the other its falling edges, so the end of a pulse never overwrites its begin. */
 #include "hal/slots.h"
 
 #include "ring.h"
@@ -19,7 +19,7 @@ static stm32f4_ring_counts edge_counts;
 static const stm32f4_ring edges = {&edge_counts, kept_edges, EDGES_KEPT, sizeof *kept_edges};
 static volatile uint32_t overruns;
 
-/* Returns false if the ring is full afterwards: an overrun, after which the interrupt pauses until an edge is taken. */
+/* If the ring is full afterwards, counts an overrun and returns false. The capture pauses until an edge is taken. */
 static bool keep_edge(const hal_slot_edge *edge) {
     if (stm32f4_ring_put(&edges, edge) && stm32f4_ring_has_room(&edges)) {
         return true;
@@ -86,7 +86,7 @@ void on_tim2(void) {
     }
 }
 
-/* Also restarts a paused capture, and drops the captures that remain from a storm: they may be of any age. */
+/* Also restarts a paused capture, and then drops the times in its registers, because they may be of any age. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

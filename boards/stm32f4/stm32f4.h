@@ -68,7 +68,7 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
-/* Returns false if the flash stays busy. An erase takes less than two seconds, these polls more. */
+/* Returns false if the flash stays busy for longer than an erase, which takes less than two seconds. */
 static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }

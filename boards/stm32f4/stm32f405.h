@@ -1,5 +1,5 @@
-/* stm32f405.h: data common to all boards with an STM32F405; crystal and other pins are the board's. Each board has
- * these pins on a header: PB13, the complement of TIM1's channel 1; PB14, the enable; PA6, TIM1's break. */
+/* stm32f405.h: data common to all boards with an STM32F405. A board's other data are in its board_data.h. All boards
+ * have these pins on a header: PB13, the complement of TIM1's channel 1; PB14, the enable; PA6, TIM1's break input. */
 #ifndef BOARDS_STM32F405_H
 #define BOARDS_STM32F405_H
 
@@ -17,14 +17,14 @@
 #define BOARD_PIN_ENABLE PIN('B', 14)
 #define BOARD_PIN_BREAK PIN('A', 6)
 
-/* TIM1's outputs (motor.c): without MOE they have their idle level, low. */
+/* This value does not contain MOE, so TIM1's outputs (motor.c) have their idle level, low. */
 #define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
 
 /* Supply voltage at which the supply's input has the converter's largest value. The highest intended supply is 30 V. */
 #define BOARD_SUPPLY_FULL_mV 33000U
 #define BOARD_SUPPLY_MOST_mV 31500U
 
-/* The first stores after a fault (boards/cortexm/fault.c): TIM1's outputs to their idle level, then the enable low. */
+/* The first stores after a fault (boards/cortexm/fault.c). They set TIM1's outputs to idle, then the enable to low. */
 #define BOARD_SAFE_ROWS(X) \
     X(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR) \
     X(GPIO_BSRR(BOARD_PIN_ENABLE / 16U), 1U << (BOARD_PIN_ENABLE % 16U + 16U))

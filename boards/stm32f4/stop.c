@@ -1,5 +1,5 @@
-/* stop.c: the stop input on the pin of the break (motor.c). The chain of stop contacts feeds the pin, and the drive
- * stage's fault output pulls it down. */
+/* stop.c: the stop input. Its pin is also TIM1's break input (motor.c). The chain of stop contacts feeds the pin, and
+ * the drive stage's fault output pulls it down. */
 #include "hal/stop.h"
 
 #include "stm32f4.h"
@@ -8,5 +8,5 @@ bool hal_stop_pressed(void) { return !stm32f4_pin_is_high(BOARD_PIN_BREAK); }
 
 hal_stop_source hal_stop_source_now(void) { return HAL_STOP_EITHER; }
 
-/* A broken line cannot be distinguished: it counts as pressed. */
+/* The input cannot distinguish a broken line from a pressed stop. */
 bool hal_stop_heard(void) { return true; }

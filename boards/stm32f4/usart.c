@@ -1,6 +1,6 @@
 /* usart.c: the console on USART6, 115,200 baud, 8 bits, no parity (RM0090, 30), with an interrupt and a ring for each
- * direction. After a fault, or before other parts have started, it polls. The writer feeds a ready transmitter, so that
- * bytes also go out if an empty transmitter raises no interrupt (QEMU 7.2). */
+ * direction. uart_write() polls instead, so that it also works after a fault and before other parts have started.
+ * hal_console_offer() feeds a ready transmitter itself, because an empty one may raise no interrupt (QEMU 7.2). */
 #include "boards/board.h"
 
 #include "ring.h"
@@ -10,7 +10,7 @@
 #define USART6_IRQ 71U
 #define USART6_FUNCTION 8U
 
-/* Powers of two, so that indices wrap correctly. At most 23 bytes come in a control step of 2 ms. */
+/* Powers of two, so that indices wrap correctly. At 115,200 baud, some 23 bytes come in a control step of 2 ms. */
 #define IN_BYTES 128U
 #define OUT_BYTES 128U
 
@@ -18,7 +18,7 @@ static char in_bytes[IN_BYTES];
 static stm32f4_ring_counts in_counts;
 static const stm32f4_ring in = {&in_counts, in_bytes, IN_BYTES, 1};
 static char out_bytes[OUT_BYTES];
-/* Only the interrupt uses out_counts.taken, or code that has disabled the interrupt. */
+/* Only the interrupt, and code that has switched interrupts off, may change out_counts.taken. */
 static stm32f4_ring_counts out_counts;
 static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
 static bool lost; /* only the interrupt uses it */
@@ -44,7 +44,7 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Stores received bytes. Reading the status, then the data, clears both flags (30.6.1). Bytes lost by an overrun or a
+/* Stores received bytes. Reading the status, then the data, clears the flags (30.6.1). Bytes lost by an overrun or a
  * full ring become one zero before the next byte (hal/console.h). */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
@@ -54,7 +54,7 @@ static void fetch(void) {
         }
         char byte = (char)(reg_load(USART_DR) & 0xFFU);
         if ((status & (USART_SR_FE | USART_SR_NF)) != 0 && byte != HAL_CONSOLE_STOP) {
-            byte = 0; /* damaged by a wrong speed, a plug or noise */
+            byte = 0; /* damaged, for example by a wrong baud rate or noise */
         }
         if (lost) {
             lost = !stm32f4_ring_put(&in, "");

@@ -1,5 +1,5 @@
-/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip, also while a debugger halts the core
- * (motor.c). A reset switches the drive off. It comes after 1 to 2.8 timeouts: the oscillator has 17 to 47 kHz. */
+/* watchdog.c: the independent watchdog (RM0090, 21). It resets the chip, even if a debugger halts the core (motor.c).
+ * A reset switches the drive off. It comes after 1 to 2.8 timeouts, because the watchdog's clock has 17 to 47 kHz. */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"

@@ -4,10 +4,10 @@
 
 #include "contact_resolve.h"
 
-/* Finds the contacts that act at the start of a run, before impacts and captures: *still gets, as bits, the contacts at
- * rest; *moving gets closing stops and moving holds. A stop acts if its gap is at most round-off, or if it is in
- * `pushed` (bits). A hold acts if its condition is positive, or zero within round-off and not falling. work->law must
- * belong to `s`. */
+/* Finds the contacts that act at the start of a run, before impacts and captures. As bits, *still gets the contacts at
+ * rest, and *moving gets the stops that close and the holds that move. A stop acts if its gap is at most round-off, or
+ * if it is in `pushed` (bits). A hold acts if its condition is positive, or zero within round-off and not falling.
+ * work->law must belong to `s`. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,
@@ -38,7 +38,7 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
 /* Sets the modes at the start of a run and after wh_scene_set_real(). A body beyond a stop is first moved back onto it.
  * Then contacts at rest become active if the forces keep them closed. Last, closing stops are hit and moving holds
  * capture: *hit gets these contacts as bits, impulse[forced] their impulses. Returns the number of moments that count
- * towards WH_EVENTS_MAX: one for a body moved back, and one if contacts at rest and moving contacts were resolved. */
+ * towards WH_EVENTS_MAX: one if a body was moved back, plus one if some contacts were at rest and others moved. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *s, unsigned *hit,
                                         wh_real *impulse) {

@@ -10,9 +10,9 @@ typedef struct wh_contact_attempt {
     wh_contact_state next;
     wh_real span;       /* length of the trial step, s; wh_contact_attempt_dipped() sets it */
     wh_margins margins; /* at `next` */
-    /* bits: free stops that open at `next`, with a gap so small that they may have been closed during the trial step */
+    /* bits: free stops whose gap grows at `next`, but is so small that it may have been closed during the trial step */
     unsigned leaving;
-    unsigned dips; /* bits: those of `leaving` open at both ends, perhaps closed in between */
+    unsigned dips; /* bits: stops that are open at both ends, but may have been closed in between */
     int fault;     /* if !sound: the component that left its bounds */
     bool made;
     bool sound; /* `next` is within bounds */
@@ -28,9 +28,9 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Finds impacts on the stops in a->leaving. If the gap was positive or closing at `now` and is negative at `next`, the
- * stop was hit, and its margin becomes negative. If the gap is positive at both ends and the tangents meet below zero,
- * the stop may have been hit in between: a->dips gets it. */
+/* Finds impacts on the stops in a->leaving. If a stop's gap was positive or closing at `now` and is negative at `next`,
+ * the stop was hit: its margin becomes the negative gap. If the gap is positive at both ends, but its tangents there
+ * meet below zero, the stop may have been hit in between: its bit in a->dips is set. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -63,11 +63,11 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Searches the gaps of the stops in a->dips for a negative value. Returns the earliest such time as a fraction of the
- * trial step, or 1. Each probe replaces the interval's end at which the rate has the probe's sign. Probes alternate
- * between the intersection of the end tangents, which suits a distance sqrt(x^2 + y^2), and the zero of a linear rate,
- * which suits a parabola. After a probe with a negative gap, the next one is halfway back to the surface, because the
- * gap of a round post may be undefined at its centre. The search ends if the tangents meet above zero. */
+/* Searches the gaps of the stops in a->dips for a negative value. Returns the earliest time found, as a fraction of the
+ * trial step, or 1 if there is none. A probe with a positive gap replaces the interval's end whose rate has the same
+ * sign. Probes alternate between two points: where the tangents at both ends meet, which suits a distance
+ * sqrt(x^2 + y^2), and where a linear rate would be zero, which suits a parabola. If a probe's gap is negative or
+ * undefined (at the centre of a round post), the next probe is nearer the surface. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

@@ -4,10 +4,10 @@
 
 #include "contact_lcp.h"
 
-/* Distributes the load over all contacts in member[], if a force exceeds its limit or a redundant contact contradicts
- * the others. The redundant contacts are `repeats` (bits of indices in member[]); their forces are zero so far.
- * work->force gets the new forces; a contact that gives way gets its limit plus the excess over it. accel[] changes
- * only after a contradiction. */
+/* Computes work->force again for all contacts in member[], if a force exceeds its limit or a redundant contact
+ * contradicts the others. The redundant contacts are `repeats` (bits of indices in member[]); their forces are zero so
+ * far. The new force of a contact that gives way exceeds its limit by the force that is missing to hold it. accel[]
+ * changes only after a contradiction. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -40,7 +40,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
             if (!wh_contact_exceeds(of, w, k, w->force[k])) {
-                /* round-off hides the excess: use a larger one */
+                /* round-off hides the excess over the limit: use a larger excess */
                 w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
                                                    : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
@@ -86,7 +86,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (pin >= 0) { /* the acceleration is 0, or NaN if the force is NaN */
+        if (pin >= 0) { /* the coordinate's acceleration is exactly 0, or NaN if the force is NaN */
             accel[pin] = lambda[i] - lambda[i];
         }
     }
@@ -111,9 +111,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
 }
 
 /* Solves for all impulses at once, adds them to impulse[forced] and applies them to rate[]. Afterwards J_k q' is
- * target[k] for contacts in `set` (bits), and zero for free stops in `beside` (bits) and for active contacts other than
- * frictions. A gap may open faster, because stops do not pull. Returns, as bits, the stops that would have to pull.
- * work->law must belong to the position. */
+ * target[k] for contacts in `set` (bits). It is zero for free stops in `beside` (bits) and for active contacts that are
+ * neither frictions nor in `set`. A gap may open faster, because stops do not pull. Returns, as bits, the stops that
+ * would have to pull. work->law must have been evaluated at the present position. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {
