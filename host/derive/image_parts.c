@@ -47,7 +47,7 @@ place image_place(image_draft *d, place at) {
 }
 
 image_unit image_unit_of(image_draft *d, const symbol *s, int primes) {
-    const unit_scale in = shown_unit(s, primes);
+    const unit_scale in = shown_unit(s);
     char *name = shown_unit_name(s, primes);
     char *si = shown_si_name(s, primes);
     const image_unit made = {image_text(d, name), image_text(d, si), in.scale, in.divisor};

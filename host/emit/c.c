@@ -155,16 +155,6 @@ static bool ends(const char *name, const char *in) {
     return length > tail && strcmp(name + length - tail, in) == 0;
 }
 
-static bool is_in_a_family(const char *name) {
-    size_t size;
-    for (const char *at = families; (at = next_word(at, &size)) != NULL; at += size) {
-        if (strncmp(name, at, size) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Is it a function of `maths`, or a variant such as fabsf, fabsl, fabsf64x, lgammaf_r? */
 static bool is_maths(const char *name) {
     const size_t whole = strlen(name);
@@ -199,11 +189,16 @@ static bool is_of_integers(const char *name) {
 
 bool emit_c_name_is_free(const char *name) {
     const size_t length = strlen(name);
+    size_t size;
+    for (const char *at = families; (at = next_word(at, &size)) != NULL; at += size) {
+        if (strncmp(name, at, size) == 0) {
+            return false;
+        }
+    }
     return !emit_is_among(words_of_c, name, length) && !emit_is_among(own, name, length) &&
            !emit_is_among(predefined, name, length) &&
            !emit_is_among(types_and_macros, name, length) &&
-           !emit_is_among(functions, name, length) && !is_maths(name) && !is_of_integers(name) &&
-           !is_in_a_family(name);
+           !emit_is_among(functions, name, length) && !is_maths(name) && !is_of_integers(name);
 }
 
 bool emit_c_name_is_free_in_cpp(const char *name) {
@@ -211,15 +206,6 @@ bool emit_c_name_is_free_in_cpp(const char *name) {
 }
 
 /* === a scene's contacts as C ================================================================== */
-
-static void c_contacts_include(FILE *out, const image *im) {
-    fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", im->contacts,
-            im->set_count > 0 ? im->set_count : 1);
-    fprintf(
-        out,
-        "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
-        "#define WH_CONTACTS_OF(model) (&contacts)\n#include \"core/contact/contact_step.h\"\n");
-}
 
 #define KIND_TEXT(name, is) [name] = #name,
 static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
@@ -249,10 +235,10 @@ static void c_contacts_write(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     const bool sets = im->list[IMAGE_SETS] != NULL;
     const wh_contact_system system = core_contact_system(im, NULL, NULL);
-    c_list_function(out, im->list[IMAGE_SIGNALS], C_PHASES, "contact_signals", true, true);
-    c_list_function(out, im->list[IMAGE_FORCES], C_PHASES, "contact_forces", true, true);
+    c_list_function(out, im->list[IMAGE_SIGNALS], C_PHASES, "contact_signals", true, C_BY_POINTER);
+    c_list_function(out, im->list[IMAGE_FORCES], C_PHASES, "contact_forces", true, C_BY_POINTER);
     if (sets) {
-        c_list_function(out, im->list[IMAGE_SETS], C_PHASES, "contact_sets", true, true);
+        c_list_function(out, im->list[IMAGE_SETS], C_PHASES, "contact_sets", true, C_BY_POINTER);
     }
     write_table(out, im);
     fprintf(
@@ -290,13 +276,6 @@ static void c_contacts_write(FILE *out, const image *im) {
 
 /* === a scene's ledger as C ==================================================================== */
 
-/* These bounds must precede the core's headers. */
-static void c_ledger_bounds(FILE *out, const image *im) {
-    const image_ledger *l = &im->ledger;
-    fprintf(out, "#define WH_LEDGER 1\n#define WH_LEDGER_MAX %d\n#define WH_ACCOUNTS_MAX %d\n",
-            l->entries > 0 ? l->entries : 1, l->accounts);
-}
-
 static void write_phases(FILE *out, const image *im, const char *angle) {
     fprintf(out,
             "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
@@ -331,7 +310,7 @@ static void c_ledger_write(FILE *out, const image *im) {
     if (l->turned) {
         write_of_angles(out, im, im->list[IMAGE_POWERS], "ledger_powers", "power");
     } else {
-        c_list_function(out, im->list[IMAGE_POWERS], C_PHASES, "ledger_powers", true, true);
+        c_list_function(out, im->list[IMAGE_POWERS], C_PHASES, "ledger_powers", true, C_BY_POINTER);
     }
     write_of_angles(out, im, im->list[IMAGE_LEVELS], "ledger_levels", "level");
     int *account = alloc(l->smooth, sizeof *account);
@@ -383,11 +362,11 @@ static void write_observer(FILE *out, const image *im) {
         fprintf(out, "    wh_real accel[%d];\n    wh_contact_observe(&contacts, state, accel);\n",
                 im->coordinates);
     }
-    if (!c_list_uses_phase(t) && !op_list_reads_turns(t) && !op_list_has(t, OP_LINEAR) &&
-        !op_list_has(t, OP_RATE) && !op_list_has(t, OP_INPUT) && !op_list_has(t, OP_TIME) &&
-        !op_list_has(t, OP_ACCEL) && !op_list_has(t, OP_NOISE)) {
-        fprintf(out, "    (void)state;\n");
-    }
+    const bool reads_state = c_list_uses_phase(t) || op_list_reads_turns(t) ||
+                             op_list_has(t, OP_LINEAR) || op_list_has(t, OP_RATE) ||
+                             op_list_has(t, OP_INPUT) || op_list_has(t, OP_TIME) ||
+                             op_list_has(t, OP_ACCEL) || op_list_has(t, OP_NOISE);
+    c_list_ignore(out, reads_state, "state");
     c_list_body(out, t, C_PHASES, "output");
 }
 
@@ -492,11 +471,17 @@ static void write_banner(FILE *out, const image *im, const char *file) {
 }
 
 static void write_includes(FILE *out, const image *im) {
-    if (im->ledger.kept) {
-        c_ledger_bounds(out, im);
+    if (im->ledger.kept) { /* these bounds must precede the core's headers */
+        fprintf(out, "#define WH_LEDGER 1\n#define WH_LEDGER_MAX %d\n#define WH_ACCOUNTS_MAX %d\n",
+                im->ledger.entries > 0 ? im->ledger.entries : 1, im->ledger.accounts);
     }
     if (im->contacts > 0) {
-        c_contacts_include(out, im);
+        fprintf(out,
+                "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n"
+                "#include \"core/contact.h\"\nstatic const wh_contact_system contacts;\n"
+                "#define WH_CONTACTS_OF(model) (&contacts)\n"
+                "#include \"core/contact/contact_step.h\"\n",
+                im->contacts, im->set_count > 0 ? im->set_count : 1);
     } else if (im->list[IMAGE_MATRIX] != NULL) {
         fputs("#include \"core/step/matrix_step.h\"\n", out);
     } else {
@@ -582,18 +567,15 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
-/* Returns the number of stages with reserved memory. Fewer than four would not make gcc spill fewer values. */
-static int most_stages(const image *im) {
-    const int stages = wh_methods[im->settings.method].stages;
-    return stages > 4 ? stages : 4;
-}
-
 void emit_c(FILE *out, const image *im, const char *file) {
     const bool second = im->form == WH_SECOND_ORDER;
     const bool turns = image_turns(im);
     const int components = second ? im->coordinates : im->angles + im->reals;
+    const int stages = wh_methods[im->settings.method].stages;
     write_banner(out, im, file);
-    fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components, most_stages(im));
+    /* memory for fewer than four stages would not make gcc spill fewer values */
+    fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components,
+            stages > 4 ? stages : 4);
     if (turns) {
         const int waves = op_list_waves(im->list[IMAGE_STEP]);
         fprintf(out, "#define WH_WAVES %d\n", waves > 0 ? waves : 1);
@@ -608,11 +590,11 @@ void emit_c(FILE *out, const image *im, const char *file) {
     write_starts(out, im);
     c_list_cells(out, im->list[IMAGE_STEP]);
     if (im->list[IMAGE_MATRIX] != NULL) {
-        c_list_matrix(out, im->list[IMAGE_MATRIX]);
+        c_list_function(out, im->list[IMAGE_MATRIX], C_PHASES, "step_matrix", true, "WH_INLINE");
     } else {
         c_list_function(out, im->list[IMAGE_STEP], turns ? C_WAVES : C_PHASES,
                         second ? "accelerations" : "slopes", second,
-                        im->contacts > 0 || im->ledger.asked);
+                        im->contacts > 0 || im->ledger.asked ? C_BY_POINTER : "WH_INLINE_WITH_FPU");
     }
     if (turns) {
         c_list_waves(out, im->list[IMAGE_STEP]);

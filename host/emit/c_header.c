@@ -73,8 +73,6 @@ static item of_unknown(const image *im, component c) {
     return (item){u->name, u->text, u->unit[c.primes].si, c.primes};
 }
 
-static item of_quantity(const image_quantity *q) { return (item){q->name, q->text, q->unit.si, 0}; }
-
 static item item_of(const image *im, list of, int i) {
     const int k = i - im->own_outputs; /* value or rate of a recovered coordinate */
     if (of == LIST_ANGLES || of == LIST_REALS) {
@@ -83,7 +81,8 @@ static item item_of(const image *im, list of, int i) {
     if (of == LIST_OUTPUTS && k >= 0) {
         return of_unknown(im, (component){im->from_momentum[k / 2], k % 2});
     }
-    return of_quantity(of == LIST_INPUTS ? &im->input[i] : &im->output[i]);
+    const image_quantity *q = of == LIST_INPUTS ? &im->input[i] : &im->output[i];
+    return (item){q->name, q->text, q->unit.si, 0};
 }
 
 static const char primes[] = "''''''''''";
@@ -137,15 +136,6 @@ static void write_strings(FILE *out, const image *im, list of) {
         fprintf(out, "%s\"%s\"", i > 0 ? ", " : "", it.si);
     }
     fputs("}\n", out);
-}
-
-static void write_memory(FILE *out, const image *im) {
-    fprintf(
-        out,
-        "/* Memory of wh_scene_start(), in float or double: in bytes, and in words of a uint64_t array. */\n"
-        "#define %s_MEMORY_BYTES WH_MEMORY_BYTES(%d, %d, %d)\n"
-        "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\n",
-        im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
 }
 
 /* Defines a number. Its text gets a point if it has no exponent, because WH_R() needs one of them. */
@@ -273,8 +263,12 @@ void c_header_link(FILE *out, const char *type, const char *scene, c_header_body
 
 void c_header_of_image(FILE *out, const void *of) {
     const image *im = of;
-    write_memory(out, im);
-    fputs("enum {\n", out);
+    fprintf(
+        out,
+        "/* Memory of wh_scene_start(), in float or double: in bytes, and in words of a uint64_t array. */\n"
+        "#define %s_MEMORY_BYTES WH_MEMORY_BYTES(%d, %d, %d)\n"
+        "#define %s_MEMORY_WORDS ((%s_MEMORY_BYTES + 7U) / 8U)\n\nenum {\n",
+        im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
     for (int k = 0; k < LISTS; k++) {
         write_items(out, im, (list)k, lists[k].where);
     }

@@ -9,24 +9,6 @@
 #include "host/number/decimal.h"
 #include "host/number/phase.h"
 
-static void operands(FILE *out, const op_list *t, const op *o, const op_style *style) {
-    style->operand(out, t, o->a);
-    if (o->b >= 0) {
-        fputs(", ", out);
-        style->operand(out, t, o->b);
-    }
-}
-
-/* Writes "|| b != b", which is true for NaN, unless b is a constant. */
-static void or_no_number(FILE *out, const op_list *t, int b, const op_style *style) {
-    if (t->ops[b].code != OP_CONSTANT) {
-        fputs(" || ", out);
-        style->operand(out, t, b);
-        fputs(" != ", out);
-        style->operand(out, t, b);
-    }
-}
-
 void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style) {
     for (const char *at = form; *at != '\0'; at++) {
         if (*at != '$') {
@@ -38,8 +20,21 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
         case 'a': style->operand(out, t, o->a); break;
         case 'b': style->operand(out, t, o->b); break;
         case 'f': fputs(function_name(o->function), out); break;
-        case 'o': operands(out, t, o, style); break;
-        case 'n': or_no_number(out, t, o->b, style); break;
+        case 'o':
+            style->operand(out, t, o->a);
+            if (o->b >= 0) {
+                fputs(", ", out);
+                style->operand(out, t, o->b);
+            }
+            break;
+        case 'n': /* "|| b != b", which is true for NaN, unless b is a constant */
+            if (t->ops[o->b].code != OP_CONSTANT) {
+                fputs(" || ", out);
+                style->operand(out, t, o->b);
+                fputs(" != ", out);
+                style->operand(out, t, o->b);
+            }
+            break;
         case 'i': fprintf(out, "%d", o->a); break;
         case 'v': fprintf(out, "%.0f", o->value); break;
         default:
@@ -63,27 +58,14 @@ enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
 
-static const char *operand(const op_list *t, int a, char text[static 48]) {
+static void write_operand(FILE *out, const op_list *t, int a) {
     if (t->ops[a].code == OP_CONSTANT) {
         const double value = t->ops[a].value;
         char hex[HEX_SIZE];
-        snprintf(text, 48, value < 0.0 ? "(-WH_R(%s))" : "WH_R(%s)", hex_write(fabs(value), hex));
+        fprintf(out, value < 0.0 ? "(-WH_R(%s))" : "WH_R(%s)", hex_write(fabs(value), hex));
     } else {
-        snprintf(text, 48, "x%d", a);
+        fprintf(out, "x%d", a);
     }
-    return text;
-}
-
-/* Writes "wh_phase_times(...)", a multiple of an angle, with the integers that float needs. */
-static void write_part(FILE *out, int angle, double multiple) {
-    uint32_t whole;
-    uint64_t part;
-    char hex[HEX_SIZE];
-    phase_factor(multiple, &whole, &part);
-    fprintf(out,
-            "wh_phase_times(angle[%d], WH_FACTOR(%s, %" PRIu32 "U,\n"
-            "        UINT64_C(%" PRIu64 ")))",
-            angle, hex_write(multiple, hex), whole, part);
 }
 
 /* Writes the phase's constant and whole multiples of angles. Returns the sign before the next term. */
@@ -108,28 +90,32 @@ static const char *write_turns(FILE *out, const op_list *t, const op *o) {
 
 static void write_phase(FILE *out, const op_list *t, int i) {
     const op *o = &t->ops[i];
-    char b[48];
     fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
     const char *plus = write_turns(out, t, o);
     for (int k = 0; k < t->angles && o->parts != NULL; k++) {
-        if (o->parts[k] != 0.0) {
-            fputs(plus, out);
-            write_part(out, k, o->parts[k]);
+        if (o->parts[k] != 0.0) { /* a multiple of an angle, with the integers that float needs */
+            uint32_t whole;
+            uint64_t part;
+            char hex[HEX_SIZE];
+            phase_factor(o->parts[k], &whole, &part);
+            fprintf(out,
+                    "%swh_phase_times(angle[%d], WH_FACTOR(%s, %" PRIu32 "U,\n"
+                    "        UINT64_C(%" PRIu64 ")))",
+                    plus, k, hex_write(o->parts[k], hex), whole, part);
             plus = " + ";
         }
     }
     if (o->b >= 0) {
-        fprintf(out, "%swh_phase_from_rad(%s)", plus, operand(t, o->b, b));
+        fprintf(out, "%swh_phase_from_rad(", plus);
+        write_operand(out, t, o->b);
+        fputc(')', out);
     }
     fprintf(out, ", &s%d, &c%d);\n", i, i);
     if (o->b >= 0) {
-        fprintf(out, "    wh_sincos_of_range(%s, &s%d, &c%d);\n", b, i, i);
+        fputs("    wh_sincos_of_range(", out);
+        write_operand(out, t, o->b);
+        fprintf(out, ", &s%d, &c%d);\n", i, i);
     }
-}
-
-static void write_operand(FILE *out, const op_list *t, int a) {
-    char text[48];
-    fputs(operand(t, a, text), out);
 }
 
 /* Does the list have `code`, OP_SIN or OP_COS, of phase i? */
@@ -139,16 +125,6 @@ static bool takes(const op_list *t, op_code code, int i) {
         found = found || (t->ops[k].code == code && t->ops[k].a == i);
     }
     return found;
-}
-
-/* Writes sine and cosine of phase i, read from wave[`wave`]. */
-static void write_pair(FILE *out, const op_list *t, int i, int wave) {
-    if (takes(t, OP_SIN, i)) {
-        fprintf(out, "    const wh_real s%d = wave[%d].sine;\n", i, wave);
-    }
-    if (takes(t, OP_COS, i)) {
-        fprintf(out, "    const wh_real c%d = wave[%d].cosine;\n", i, wave);
-    }
 }
 
 static void write_cell(FILE *out, const op_list *t, int i) {
@@ -165,12 +141,6 @@ static void write_cell(FILE *out, const op_list *t, int i) {
         fprintf(out, ", &back%d", i);
     }
     fprintf(out, ");\n");
-}
-
-/* Is it a look-up in an odd table that folds? */
-static bool is_mirrored(const op_list *t, const op *o) {
-    return op_rows[o->code].kind == OP_IS_LOOKUP && t->tables.folds &&
-           t->tables.odd[(int)o->value / t->tables.terms];
 }
 
 void c_list_cells(FILE *out, const op_list *t) {
@@ -208,7 +178,9 @@ static void write_operation(FILE *out, const op_list *t, int i) {
     } else if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
     } else if (row->kind != OP_IS_CONSTANT) {
-        const bool mirrored = is_mirrored(t, o);
+        /* a look-up in an odd table that folds */
+        const bool mirrored = row->kind == OP_IS_LOOKUP && t->tables.folds &&
+                              t->tables.odd[(int)o->value / t->tables.terms];
         fprintf(out, "    const wh_real x%d = %s", i, mirrored ? "wh_table_back(" : "");
         op_text(out, t, o, row->c, &style);
         if (mirrored) {
@@ -221,17 +193,24 @@ static void write_operation(FILE *out, const op_list *t, int i) {
 bool c_list_uses_phase(const op_list *t) { return op_list_waves(t) > 0 || op_list_has(t, OP_CELL); }
 
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result) {
-    char text[48];
     int wave = 0;
     for (int i = 0; i < t->count; i++) {
-        if (angles == C_WAVES && op_list_is_wave(&t->ops[i])) {
-            write_pair(out, t, i, wave++);
-        } else {
+        if (angles != C_WAVES || !op_list_is_wave(&t->ops[i])) {
             write_operation(out, t, i);
+            continue;
         }
+        if (takes(t, OP_SIN, i)) {
+            fprintf(out, "    const wh_real s%d = wave[%d].sine;\n", i, wave);
+        }
+        if (takes(t, OP_COS, i)) {
+            fprintf(out, "    const wh_real c%d = wave[%d].cosine;\n", i, wave);
+        }
+        wave++;
     }
     for (int i = 0; i < t->results; i++) {
-        fprintf(out, "    %s[%d] = %s;\n", result, i, operand(t, t->result[i], text));
+        fprintf(out, "    %s[%d] = ", result, i);
+        write_operand(out, t, t->result[i]);
+        fputs(";\n", out);
     }
     fprintf(out, "}\n\n");
 }
@@ -242,9 +221,9 @@ void c_list_ignore(FILE *out, bool used, const char *name) {
     }
 }
 
-static void write_function(FILE *out, const op_list *t, c_angles angles, const char *name,
-                           bool second, const char *inlined) {
-    const char *linkage = op_list_operations(t) > INLINED_MOST ? "static" : inlined;
+void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
+                     const char *linkage) {
+    linkage = op_list_operations(t) > INLINED_MOST ? "static" : linkage;
     const int indent = (int)(strlen(linkage) + sizeof " void (" - 1 + strlen(name));
     fprintf(out, "%s void %s(const void *model, const wh_%s,\n", linkage, name,
             angles == C_WAVES ? "wave *wave" : "phase *phase");
@@ -263,16 +242,6 @@ static void write_function(FILE *out, const op_list *t, c_angles angles, const c
     c_list_ignore(out, op_list_has(t, OP_INPUT), "input");
     c_list_ignore(out, t->results > 0, "result");
     c_list_body(out, t, angles, "result");
-}
-
-void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
-                     bool by_pointer) {
-    write_function(out, t, angles, name, second,
-                   by_pointer ? "static inline" : "WH_INLINE_WITH_FPU");
-}
-
-void c_list_matrix(FILE *out, const op_list *t) {
-    write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
 /* Writes a wave's rate times `scale`, summed as in the interpreter. With one angle, its factor is scaled first. */

@@ -29,13 +29,14 @@ typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
 /* Writes the statements, with results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
-/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. by_pointer: the core calls it through a
- * pointer in a constant, which gcc -Og resolves too late for inlining, so the function must not require inlining. */
+/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. `linkage` is replaced by "static" if the
+ * list is long. WH_INLINE: the core calls the function at one place, so that inlining takes no flash. C_BY_POINTER: the
+ * core calls it through a pointer in a constant, which gcc -Og resolves too late for inlining, so the function must not
+ * require inlining. */
+#define C_BY_POINTER "static inline"
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
-                     bool by_pointer);
+                     const char *linkage);
 
-/* Writes "step_matrix", which wh_step_matrix() calls at one place, so that inlining takes no flash. */
-void c_list_matrix(FILE *out, const op_list *t);
 /* Writes "cells", the tables of a list, if there are any. */
 void c_list_cells(FILE *out, const op_list *t);
 

@@ -25,12 +25,6 @@ static const char *describe_ledger_kind(ledger_kind kind) {
     return "";
 }
 
-static void put_hex(json *j, const char *key, uint64_t value) {
-    char text[24];
-    snprintf(text, sizeof text, "0x%016" PRIx64, value);
-    json_text(j, key, text);
-}
-
 static void put_place(json *j, place at) {
     char text[STATEMENT_SIZE];
     statement_text(at, text, sizeof text);
@@ -287,6 +281,8 @@ static void put_matrix(json *j, const image *im) {
 
 void describe_json(FILE *out, const image *im, const char *file) {
     json j = {.out = out};
+    char hash[24];
+    snprintf(hash, sizeof hash, "0x%016" PRIx64, im->hash);
     json_open(&j, NULL, '{');
     json_whole(&j, "version", DESCRIBE_VERSION);
     json_text(&j, "whirl", WH_VERSION);
@@ -294,7 +290,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
     json_text(&j, "title", im->title);
     json_text(&j, "mechanism", im->mechanism);
     json_text(&j, "file", file);
-    put_hex(&j, "hash", im->hash);
+    json_text(&j, "hash", hash);
     json_text(&j, "form", im->form == WH_SECOND_ORDER ? "second order" : "first order");
     json_bool(&j, "energies", im->has_energies);
     json_text(&j, "method", wh_methods[im->settings.method].word);

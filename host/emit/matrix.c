@@ -91,9 +91,7 @@ void matrix_text(FILE *out, const image *im) {
     }
     fputc('\n', out);
     put_table(out, im, "Phi", 0, states);
-    if (im->inputs > 0) {
-        put_table(out, im, "Gamma", states, states + im->inputs);
-    }
+    put_table(out, im, "Gamma", states, states + im->inputs);
     if (has_offset(im)) {
         put_table(out, im, "g", states + im->inputs, im->matrix.columns);
     }
@@ -143,15 +141,6 @@ static void put_octave(FILE *out, const image *im, const char *name, int first, 
     fputs("  ];\n", out);
 }
 
-static void put_vector(FILE *out, const char *name, const double *value, int count,
-                       const double *behind, int more) {
-    fprintf(out, "%% %s = [", name);
-    for (int i = 0; i < count + more; i++) {
-        fprintf(out, "%s%.17g", i > 0 ? "; " : "", i < count ? value[i] : behind[i - count]);
-    }
-    fputs("];\n", out);
-}
-
 void matrix_octave(FILE *out, const image *im, const char *file) {
     const int states = im->matrix.states;
     fprintf(out,
@@ -162,9 +151,11 @@ void matrix_octave(FILE *out, const image *im, const char *file) {
     put_names(out, im, 0, states, true);
     fputs("\n% u = ", out);
     put_names(out, im, states, states + im->inputs, true);
-    fprintf(out, "\n%%\n%% [Phi, Gamma, g0] = %s;\n", im->name);
-    put_vector(out, "x", im->start_rad, im->angles, im->start_real, im->reals);
-    fputs("% u = [", out);
+    fprintf(out, "\n%%\n%% [Phi, Gamma, g0] = %s;\n%% x = [", im->name);
+    for (int i = 0; i < states; i++) {
+        fprintf(out, "%s%.17g", i > 0 ? "; " : "", image_start(im, i));
+    }
+    fputs("];\n% u = [", out);
     for (int i = 0; i < im->inputs; i++) {
         fprintf(out, "%s%.17g", i > 0 ? "; " : "", im->input[i].value);
     }

@@ -1,10 +1,7 @@
 /* octave.c: a function file for Octave and Matlab, from the operation list. */
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "emit.h"
-#include "host/base/alloc.h"
 #include "host/emit/c_list.h"
 
 /* The index k of y(k), from 1: values, then rates, and so on. */
@@ -76,86 +73,74 @@ static void write_operation(FILE *out, const image *im, int i) {
     fputs(";\n", out);
 }
 
-/* Has the list an operation that gives NaN in C but a complex number in Octave? */
-static bool may_be_complex(const op_list *t) {
-    bool found = false;
-    for (int i = 0; i < t->count; i++) {
-        const op *o = &t->ops[i];
-        found = found || o->code == OP_SQRT || o->code == OP_POW ||
-                (o->code == OP_CALL && !function_is_real(o->function));
+/* Writes the names of y, or its start. */
+static void write_y(FILE *out, const image *im, bool start) {
+    for (int level = 0, number = 1; number <= im->angles + im->reals; level++) {
+        for (int i = 0; i < im->count; i++) {
+            if (im->unknown[i].order <= level) {
+                continue;
+            }
+            if (start) {
+                fprintf(out, "%s%.17g", number > 1 ? "; " : "",
+                        image_start(im, image_find_component(im, i, level)));
+            } else {
+                fprintf(out, "%s%s%.*s", number > 1 ? ", " : "", im->unknown[i].name, level,
+                        "''''''''''");
+            }
+            number++;
+        }
     }
-    return found;
-}
-
-static void write_start(FILE *out, const image *im) {
-    const int components = im->angles + im->reals;
-    double *start = alloc(components, sizeof *start);
-    for (int i = 0; i < components; i++) {
-        start[y_number(im, image_component(im, i)) - 1] = image_start(im, i);
-    }
-    for (int i = 0; i < components; i++) {
-        fprintf(out, "%s%.17g", i > 0 ? "; " : "", start[i]);
-    }
-    free(start);
-}
-
-static void write_highest(FILE *out, const image *im, int i) {
-    const op_list *t = im->list[IMAGE_STEP];
-    const int result = im->form == WH_SECOND_ORDER
-                           ? im->place[i]
-                           : image_find_component(im, i, im->unknown[i].order - 1);
-    write_operand(out, t, t->result[result]);
 }
 
 void emit_octave_head(FILE *out, const image *im, const char *file, const char *contacts) {
-    const int components = im->angles + im->reals;
     fprintf(out, "function dy = %s(t, y)\n", im->name);
     fprintf(out, "%% " EMIT_BANNER " from %s: do not edit. SI units.\n%%\n%% y = (", file);
-    for (int level = 0, number = 1; number <= components; level++) {
-        for (int i = 0; i < im->count; i++) {
-            if (im->unknown[i].order > level) {
-                fprintf(out, "%s%s%.*s", number > 1 ? ", " : "", im->unknown[i].name, level,
-                        "''''''''''");
-                number++;
-            }
-        }
-    }
+    write_y(out, im, false);
     fprintf(out,
             ")\n%%\n%% options = odeset('RelTol', 1e-7, 'AbsTol', 1e-9);\n"
             "%% [T, Y] = ode45(@%s, [0 %.17g], [",
             im->name, im->until_s);
-    write_start(out, im);
+    write_y(out, im, true);
     fprintf(out, "], options);\n%% K = [T Y]; save('%s.txt', 'K', '-ascii')\n%s", im->name,
             contacts);
 }
 
 void emit_octave_end(FILE *out, const image *im) {
-    if (may_be_complex(im->list[IMAGE_STEP])) {
+    const op_list *t = im->list[IMAGE_STEP];
+    bool may_be_complex = false; /* in Octave, NaN in C */
+    for (int i = 0; i < t->count; i++) {
+        const op *o = &t->ops[i];
+        may_be_complex = may_be_complex || o->code == OP_SQRT || o->code == OP_POW ||
+                         (o->code == OP_CALL && !function_is_real(o->function));
+    }
+    if (may_be_complex) {
         fprintf(out, "  if ~isreal(dy), dy(:) = NaN; end %% outside a function's real values\n");
     }
     fprintf(out, "end\n");
 }
 
 void emit_octave(FILE *out, const image *im, const char *file, const char *contacts) {
+    const op_list *t = im->list[IMAGE_STEP];
     emit_octave_head(out, im, file, contacts);
     for (int i = 0; i < im->inputs; i++) {
         const image_quantity *u = &im->input[i];
         fprintf(out, "  u_%s = %.17g; %% %s\n", u->name, u->value, u->text);
     }
-    for (int i = 0; i < im->list[IMAGE_STEP]->count; i++) {
+    for (int i = 0; i < t->count; i++) {
         write_operation(out, im, i);
     }
     fprintf(out, "  dy = zeros(%d, 1);\n", im->angles + im->reals);
     for (int i = 0; i < im->count; i++) {
-        for (int primes = 0; primes < im->unknown[i].order; primes++) {
-            fprintf(out, "  dy(%d) = ", y_number(im, (component){i, primes}));
-            if (primes + 1 < im->unknown[i].order) {
-                fprintf(out, "y(%d)", y_number(im, (component){i, primes + 1}));
-            } else {
-                write_highest(out, im, i);
-            }
-            fputs(";\n", out);
+        const int top = im->unknown[i].order - 1;
+        for (int primes = 0; primes < top; primes++) {
+            fprintf(out, "  dy(%d) = y(%d);\n", y_number(im, (component){i, primes}),
+                    y_number(im, (component){i, primes + 1}));
         }
+        fprintf(out, "  dy(%d) = ", y_number(im, (component){i, top}));
+        write_operand(out, t,
+                      t->result[im->form == WH_SECOND_ORDER ? im->place[i]
+                                                            : image_find_component(im, i, top)]);
+        fputs(";\n", out);
     }
     emit_octave_end(out, im);
 }

@@ -4,145 +4,6 @@
 #include "host/lang/parser.h"
 #include "host/lang/statements.h"
 
-static contact_statement contact_begun(const parser *in, const statement_word *word);
-
-static bool add_contact(parser *in, const contact_statement *made);
-
-/* === `when EXPR crosses EXPR [rising|falling] { set NAME = EXPR, ... }` ======================= */
-
-static const char *form(void) { return word_row(WORD_WHEN)->form; }
-
-/* Reads the coordinate or rate to be set. *usable is false if the name is neither (reported). */
-static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
-    const token name = in->token;
-    const char *words = token_words(in, &name);
-    if (name.kind != TOKEN_NAME) {
-        return parser_fail(in, form(), "set needs a name, not %s", words);
-    }
-    parser_next(in);
-    const named *found = names_find(in->names, name.text, name.length);
-    *usable = false;
-    if (found == NULL) {
-        no_such_coordinate(in, &name);
-        return true;
-    }
-    if (found->is_placeholder) {
-        return true;
-    }
-    const symbol *target = &found->symbol;
-    if (target->kind != SYM_COORDINATE && target->kind != SYM_STATE) {
-        diag_error(in->diags, name.at, NULL,
-                   "a crossing sets only coordinates and their rates, and '%s' is neither",
-                   target->name);
-        return true;
-    }
-    if (target->kind == SYM_COORDINATE && name.primes > 1) {
-        diag_error(in->diags, name.at, NULL, "%s cannot be set: it follows from the equations",
-                   words);
-        return true;
-    }
-    check_assigned_once(in, made->sets, made->set_count, target, &name, "set");
-    *set = (assignment){target, name.primes, NULL, name.at};
-    *usable = true;
-    return true;
-}
-
-static bool parse_set(parser *in, contact_statement *made) {
-    assignment set = {.symbol = NULL};
-    bool usable = false;
-    const token name = in->token;
-    if (!take_target(in, made, &set, &usable) ||
-        !parse_assigned(in, &name, usable ? set.symbol : NULL, CONTEXT_EVENT, form(), &set.value)) {
-        return false;
-    }
-    if (usable) {
-        made->sets = arena_push(in->arena, made->sets, &made->set_count, &set, sizeof set);
-    }
-    return true;
-}
-
-/* Reads set ITEM {, ITEM}. A line may end after a comma. */
-static bool parse_sets(parser *in, contact_statement *made) {
-    if (!parser_expect_word(in, WORD_SET, WORD_WHEN)) {
-        return false;
-    }
-    for (;;) {
-        if (!parse_set(in, made)) {
-            return false;
-        }
-        if (!parser_is_sign(in, ',')) {
-            return parser_end_statement(in, "the expression");
-        }
-        parser_next(in);
-        parser_skip_newlines(in);
-    }
-}
-
-static bool parse_block(parser *in, contact_statement *made) {
-    const size_t before = diags_calls(in->diags);
-    bool closed;
-    while (parser_in_block(in, ENDS_WHEN, &closed)) {
-        in->statement_at = in->token.at;
-        if (!parse_sets(in, made)) {
-            parser_skip_statement(in);
-        }
-    }
-    if (!closed) {
-        diag_error(in->diags, made->at, form(), "this 'when' is not closed with '}'");
-        return true;
-    }
-    parser_next(in);
-    if (made->set_count == 0 && diags_calls(in->diags) == before) {
-        diag_error(in->diags, made->at, form(), "this 'when' sets no value");
-    }
-    return parser_end_statement(in, "the crossing");
-}
-
-/* Reads an optional direction. Reports any other name, and returns false unless it is a misspelt direction. */
-static bool take_direction(parser *in, contact_statement *made) {
-    if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
-        made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
-        parser_next(in);
-    } else if (in->token.kind == TOKEN_NAME) {
-        nearest search = nearest_start(in->token.text, in->token.length);
-        nearest_offer(&search, word_row(WORD_RISING)->text);
-        nearest_offer(&search, word_row(WORD_FALLING)->text);
-        parser_fail(in, parser_nearest(in, &search, form()),
-                    "'rising', 'falling' or '{' is missing before %s", token_words(in, &in->token));
-        parser_next(in);
-        return search.best != NULL;
-    }
-    return true;
-}
-
-bool read_when(parser *in, const statement_word *word) {
-    contact_statement made = contact_begun(in, word);
-    const place at = in->token.at;
-    const expr *left = parse_expression(in, CONTEXT_EVENT);
-    if (left == NULL || !parser_expect_word(in, WORD_CROSSES, WORD_WHEN)) {
-        return false;
-    }
-    const place between = in->token.at;
-    const expr *right = parse_expression(in, CONTEXT_EVENT);
-    if (right == NULL || !check_limit(in, between, right, left)) {
-        return false;
-    }
-    made.value = expr_difference(in, between, left, right);
-    if (made.value == NULL) {
-        return false;
-    }
-    if ((made.value->uses & USES_UNKNOWNS) == 0 && !made.value->dim.unknown) {
-        diag_error(in->diags, at, NULL,
-                   "the crossing quantity must depend on a coordinate or a rate");
-    }
-    if (!take_direction(in, &made)) {
-        return false;
-    }
-    parser_skip_newlines(in);
-    return parser_expect_sign(in, '{', "after the crossing") && parse_block(in, &made) &&
-           add_contact(in, &made);
-}
-
 /* === stop, friction and hold ================================================================== */
 
 void contact_on_system(parser *in, const contact_statement *each) {
@@ -304,5 +165,126 @@ bool read_hold(parser *in, const statement_word *word) {
     }
     made.condition = parse_condition(in);
     return made.condition != NULL && parser_end_statement(in, "the condition") &&
+           add_contact(in, &made);
+}
+
+/* === `when EXPR crosses EXPR [rising|falling] { set NAME = EXPR, ... }` ======================= */
+
+static const char *form(void) { return word_row(WORD_WHEN)->form; }
+
+/* Returns the coordinate or state to be set, or NULL (reported) if the name is neither. */
+static const symbol *find_target(parser *in, const contact_statement *made, const token *name) {
+    const named *found = names_find(in->names, name->text, name->length);
+    if (found == NULL) {
+        no_such_coordinate(in, name);
+    }
+    if (found == NULL || found->is_placeholder) {
+        return NULL;
+    }
+    const symbol *target = &found->symbol;
+    if (!symbol_moves(target)) {
+        diag_error(in->diags, name->at, NULL,
+                   "a crossing sets only coordinates and their rates, and '%s' is neither",
+                   target->name);
+        return NULL;
+    }
+    if (target->kind == SYM_COORDINATE && name->primes > 1) {
+        diag_error(in->diags, name->at, NULL, "%s cannot be set: it follows from the equations",
+                   token_words(in, name));
+        return NULL;
+    }
+    check_assigned_once(in, made->sets, made->set_count, target, name, "set");
+    return target;
+}
+
+static bool parse_set(parser *in, contact_statement *made) {
+    const token name = in->token;
+    if (name.kind != TOKEN_NAME) {
+        return parser_fail(in, form(), "set needs a name, not %s", token_words(in, &name));
+    }
+    parser_next(in);
+    return parse_assigned(in, &name, find_target(in, made, &name), CONTEXT_EVENT, form(),
+                          &made->sets, &made->set_count);
+}
+
+/* Reads set ITEM {, ITEM}. A line may end after a comma. */
+static bool parse_sets(parser *in, contact_statement *made) {
+    if (!parser_expect_word(in, WORD_SET, WORD_WHEN)) {
+        return false;
+    }
+    for (;;) {
+        if (!parse_set(in, made)) {
+            return false;
+        }
+        if (!parser_is_sign(in, ',')) {
+            return parser_end_statement(in, "the expression");
+        }
+        parser_next(in);
+        parser_skip_newlines(in);
+    }
+}
+
+static bool parse_block(parser *in, contact_statement *made) {
+    const size_t before = diags_calls(in->diags);
+    bool closed;
+    while (parser_in_block(in, ENDS_WHEN, &closed)) {
+        in->statement_at = in->token.at;
+        if (!parse_sets(in, made)) {
+            parser_skip_statement(in);
+        }
+    }
+    if (!closed) {
+        diag_error(in->diags, made->at, form(), "this 'when' is not closed with '}'");
+        return true;
+    }
+    parser_next(in);
+    if (made->set_count == 0 && diags_calls(in->diags) == before) {
+        diag_error(in->diags, made->at, form(), "this 'when' sets no value");
+    }
+    return parser_end_statement(in, "the crossing");
+}
+
+/* Reads an optional direction. Reports any other name, and returns false unless it is a misspelt direction. */
+static bool take_direction(parser *in, contact_statement *made) {
+    if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
+        made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
+        parser_next(in);
+    } else if (in->token.kind == TOKEN_NAME) {
+        nearest search = nearest_start(in->token.text, in->token.length);
+        nearest_offer(&search, word_row(WORD_RISING)->text);
+        nearest_offer(&search, word_row(WORD_FALLING)->text);
+        parser_fail(in, parser_nearest(in, &search, form()),
+                    "'rising', 'falling' or '{' is missing before %s", token_words(in, &in->token));
+        parser_next(in);
+        return search.best != NULL;
+    }
+    return true;
+}
+
+bool read_when(parser *in, const statement_word *word) {
+    contact_statement made = contact_begun(in, word);
+    const place at = in->token.at;
+    const expr *left = parse_expression(in, CONTEXT_EVENT);
+    if (left == NULL || !parser_expect_word(in, WORD_CROSSES, WORD_WHEN)) {
+        return false;
+    }
+    const place between = in->token.at;
+    const expr *right = parse_expression(in, CONTEXT_EVENT);
+    if (right == NULL || !check_limit(in, between, right, left)) {
+        return false;
+    }
+    made.value = expr_difference(in, between, left, right);
+    if (made.value == NULL) {
+        return false;
+    }
+    if ((made.value->uses & USES_UNKNOWNS) == 0 && !made.value->dim.unknown) {
+        diag_error(in->diags, at, NULL,
+                   "the crossing quantity must depend on a coordinate or a rate");
+    }
+    if (!take_direction(in, &made)) {
+        return false;
+    }
+    parser_skip_newlines(in);
+    return parser_expect_sign(in, '{', "after the crossing") && parse_block(in, &made) &&
            add_contact(in, &made);
 }

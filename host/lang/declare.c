@@ -138,11 +138,6 @@ static named *claim_name(parser *in, const token *name) {
     return found;
 }
 
-static void append(parser *in, const symbol ***list, int *count, symbol *made) {
-    made->index = *count;
-    *list = arena_push(in->arena, *list, count, &made, sizeof made);
-}
-
 static symbol *declare(parser *in, const token *name, symbol_kind kind) {
     named *entry = claim_name(in, name);
     if (entry == NULL) {
@@ -158,12 +153,14 @@ static symbol *declare(parser *in, const token *name, symbol_kind kind) {
     case SYM_COORDINATE:
     case SYM_STATE:
         made->order = kind == SYM_COORDINATE ? 2 : 0;
-        append(in, &into->coordinates, &into->coordinate_count, made);
+        parser_add_symbol(in, &into->coordinates, &into->coordinate_count, made);
         break;
-    case SYM_PARAMETER: append(in, &into->parameters, &into->parameter_count, made); break;
-    case SYM_INPUT: append(in, &into->inputs, &into->input_count, made); break;
-    case SYM_LET: append(in, &into->lets, &into->let_count, made); break;
-    case SYM_OUTPUT: append(in, &into->outputs, &into->output_count, made); break;
+    case SYM_PARAMETER:
+        parser_add_symbol(in, &into->parameters, &into->parameter_count, made);
+        break;
+    case SYM_INPUT: parser_add_symbol(in, &into->inputs, &into->input_count, made); break;
+    case SYM_LET: parser_add_symbol(in, &into->lets, &into->let_count, made); break;
+    case SYM_OUTPUT: parser_add_symbol(in, &into->outputs, &into->output_count, made); break;
     case SYM_RECORD: break; /* not declared in the file: a noise makes this symbol */
     }
     return made;
@@ -197,11 +194,9 @@ bool read_unknown(parser *in, const statement_word *word) {
         return false;
     }
     check_not_time(in, &name, true);
-    symbol *made = declare(in, &name, (symbol_kind)word->kind);
     symbol unused = {0};
-    if (made == NULL) {
-        made = &unused;
-    }
+    symbol *made = declare(in, &name, (symbol_kind)word->kind);
+    made = made == NULL ? &unused : made;
     if (in->token.kind == TOKEN_UNIT) {
         unit_scale written;
         made->is_angle = unit_is_angle(in->token.text, in->token.length);
@@ -216,8 +211,8 @@ bool read_unknown(parser *in, const statement_word *word) {
 /* Reads "= EXPR" after the name. The name stays declared if the expression fails. */
 static bool parse_value(parser *in, symbol *made, const statement_word *word, expr_context context,
                         place *value_at) {
-    named *entry = made == NULL ? NULL : (named *)made;
-    if (entry != NULL) {
+    named *entry = (named *)made;
+    if (made != NULL) {
         entry->is_open = true;
         made->dim.unknown = true;
     }
@@ -234,7 +229,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         *value_at = in->token.at;
         value = parse_expression(in, context);
     }
-    if (entry != NULL) {
+    if (made != NULL) {
         entry->is_open = false;
         made->value = value;
         if (value != NULL) {
@@ -279,19 +274,6 @@ static bool parse_rate(parser *in, symbol *made) {
     return true;
 }
 
-/* Reads `[UNIT]` before the value: only an output has one. */
-static bool parse_output_unit(parser *in, symbol_kind kind, unit_scale *unit, const char **text) {
-    if (in->token.kind != TOKEN_UNIT) {
-        return true;
-    }
-    if (kind != SYM_OUTPUT) {
-        return parser_fail(in, "write the unit after the number: parameter m = 2 [kg]",
-                           "a unit in the wrong place");
-    }
-    parse_unit(in, unit, text);
-    return true;
-}
-
 bool read_valued(parser *in, const statement_word *word) {
     const symbol_kind kind = (symbol_kind)word->kind;
     const expr_context context = kind == SYM_LET      ? CONTEXT_LET
@@ -306,8 +288,14 @@ bool read_valued(parser *in, const statement_word *word) {
     unit_scale written = {0};
     const char *unit_text = NULL;
     place value_at = name.at;
-    if (!parse_output_unit(in, kind, &written, &unit_text) ||
-        (kind == SYM_INPUT && !parse_rate(in, made)) ||
+    if (in->token.kind == TOKEN_UNIT && kind != SYM_OUTPUT) {
+        return parser_fail(in, "write the unit after the number: parameter m = 2 [kg]",
+                           "a unit in the wrong place");
+    }
+    if (in->token.kind == TOKEN_UNIT) {
+        parse_unit(in, &written, &unit_text);
+    }
+    if ((kind == SYM_INPUT && !parse_rate(in, made)) ||
         !parse_value(in, made, word, context, &value_at) ||
         (kind == SYM_INPUT && !parse_rate(in, made))) {
         return false;

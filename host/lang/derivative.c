@@ -7,9 +7,6 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* *d: the time derivative of `of`, or NULL if it is 0. Returns false after an error. */
-static bool derive(parser *in, const expr *of, const token *name, const expr **d);
-
 static const expr *number(parser *in, place at, double value) {
     expr *made = expr_new(in, EXPR_NUMBER, at);
     made->number = value;
@@ -142,6 +139,7 @@ static bool of_symbol(parser *in, const expr *of, const token *name, const expr 
     return true;
 }
 
+/* *d: the time derivative of `of`, or NULL if it is 0. Returns false after an error. */
 static bool derive(parser *in, const expr *of, const token *name, const expr **d) {
     const size_t before = diags_calls(in->diags);
     const expr *du = NULL;
@@ -208,16 +206,11 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name) {
     }
     mechanism *into = in->builder->made;
     named *made = arena_alloc(in->arena, sizeof *made);
-    const symbol **longer = arena_room(in->arena, into->lets, into->let_count, sizeof *longer);
-    char *text = arena_alloc(in->arena, strlen(let->name) + 2);
-    sprintf(text, "%s'", let->name);
     made->symbol = *let;
-    made->symbol.name = text;
-    made->symbol.index = into->let_count;
+    made->symbol.name = arena_words(in->arena, "%s'", let->name);
     made->symbol.value = d != NULL ? d : number(in, let->at, 0.0);
     made->symbol.dim = made->symbol.value->dim;
-    longer[into->let_count++] = &made->symbol;
-    into->lets = longer;
+    parser_add_symbol(in, &into->lets, &into->let_count, &made->symbol);
     entry->rate = made;
     return &made->symbol;
 }
@@ -293,16 +286,12 @@ static bool is_rate(const mechanism *made, const symbol *s) {
 static void drive(parser *in, mechanism *made, named *input) {
     named *coordinate = arena_alloc(in->arena, sizeof *coordinate);
     named *rate = (named *)input->symbol.rate;
-    const symbol **longer =
-        arena_room(in->arena, made->coordinates, made->coordinate_count, sizeof *longer);
     coordinate->symbol = input->symbol;
     coordinate->symbol.kind = SYM_COORDINATE;
     coordinate->symbol.order = 2;
     coordinate->symbol.value = NULL;
-    coordinate->symbol.index = made->coordinate_count;
     coordinate->symbol.driven = &input->symbol;
-    longer[made->coordinate_count++] = &coordinate->symbol;
-    made->coordinates = longer;
+    parser_add_symbol(in, &made->coordinates, &made->coordinate_count, &coordinate->symbol);
     input->symbol.driven = &coordinate->symbol;
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }

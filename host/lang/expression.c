@@ -58,8 +58,7 @@ static const char *rate_hint(parser *in, const token *name) {
             const size_t length = name->length - before - behind;
             const named *found = names_find(in->names, name->text + before, length);
             if (found != NULL && !found->is_placeholder &&
-                (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE ||
-                 found->symbol.kind == SYM_LET)) {
+                (symbol_moves(&found->symbol) || found->symbol.kind == SYM_LET)) {
                 return arena_words(in->arena, "write %s%s", found->symbol.name, forms[i][2]);
             }
         }
@@ -104,7 +103,7 @@ static void report_reserved(parser *in, const token *name) {
 
 /* Is `found`, with the primes of `name`, allowed in the current context? `written` is the name in messages. */
 static bool allowed_here(parser *in, const token *name, const symbol *found, const token *written) {
-    const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
+    const bool is_unknown = symbol_moves(found);
     const bool by_let = found->kind == SYM_LET && found->value != NULL;
     const int order = is_unknown ? name->primes : by_let ? found->value->order : 0;
     const unsigned uses = by_let ? found->value->uses : 0;
@@ -174,15 +173,6 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
     return true;
 }
 
-static void set_dimension(parser *in, expr *made, const token *name) {
-    made->dim = made->symbol->dim;
-    if (name->primes > 0 && !made->dim.unknown &&
-        !dim_derivative(made->dim, name->primes, &made->dim)) {
-        diag_error(in->diags, name->at, NULL, "the exponents of this dimension are out of range");
-        made->dim.unknown = true;
-    }
-}
-
 static const expr *unknown_value(expr *made) {
     made->dim = dim_none();
     made->dim.unknown = true;
@@ -243,11 +233,7 @@ static const expr *expr_name(parser *in, const token *name) {
         }
         report_unknown(in, name);
         if (in->builder != NULL && !in->all_effects) {
-            /* Adding the name prevents a second report. */
-            found = names_add(in->builder->names, name->text, name->length);
-            found->is_placeholder = true;
-            found->symbol.kind = SYM_LET;
-            found->symbol.dim.unknown = true;
+            names_add_placeholder(in->builder->names, name);
         }
         return unknown_value(made);
     }
@@ -279,7 +265,12 @@ static const expr *expr_name(parser *in, const token *name) {
         return unknown_value(made);
     }
     made->primes = plain.primes;
-    set_dimension(in, made, &plain);
+    made->dim = made->symbol->dim;
+    if (plain.primes > 0 && !made->dim.unknown &&
+        !dim_derivative(made->dim, plain.primes, &made->dim)) {
+        diag_error(in->diags, name->at, NULL, "the exponents of this dimension are out of range");
+        made->dim.unknown = true;
+    }
     return take_properties(in, made, &plain);
 }
 
@@ -312,22 +303,15 @@ void check_assigned_once(parser *in, const assignment *list, int count, const sy
 
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
     const named *found = names_find(in->builder->names, name->text, name->length);
-    const char *words = token_words(in, name);
-    if (found != NULL && !found->is_placeholder &&
-        (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE)) {
-        if (name->primes > 0) {
-            diag_error(in->diags, name->at, NULL, "%s takes a coordinate without primes", whose);
-            return NULL;
-        }
-        return &found->symbol;
-    }
-    if (found != NULL && !found->is_placeholder) {
-        diag_error(in->diags, name->at, NULL, "%s takes a coordinate, and %s is not one", whose,
-                   words);
-        return NULL;
-    }
-    if (found == NULL || found->symbol.kind == SYM_INPUT) {
+    if (found == NULL || (found->is_placeholder && found->symbol.kind == SYM_INPUT)) {
         no_such_coordinate(in, name);
+    } else if (!found->is_placeholder && !symbol_moves(&found->symbol)) {
+        diag_error(in->diags, name->at, NULL, "%s takes a coordinate, and %s is not one", whose,
+                   token_words(in, name));
+    } else if (!found->is_placeholder && name->primes > 0) {
+        diag_error(in->diags, name->at, NULL, "%s takes a coordinate without primes", whose);
+    } else if (!found->is_placeholder) {
+        return &found->symbol;
     }
     return NULL;
 }
@@ -396,7 +380,8 @@ static const expr *parse_number(parser *in) {
     return made;
 }
 
-bool parse_close(parser *in, place open) {
+/* Reads the ')' that closes `open`. */
+static bool parse_close(parser *in, place open) {
     if (parser_is_sign(in, ')')) {
         in->parentheses--;
         parser_next(in);
@@ -662,35 +647,31 @@ static const expr *parse_both(parser *in) {
 
 static const expr *parse_any(parser *in) { return parse_joined(in, WORD_OR, FN_MAX, parse_both); }
 
-static const expr *parse_by(parser *in, expr_context context, const expr *(*rule)(parser *)) {
-    const expr_context outer = in->context;
-    in->context = context;
-    in->nesting = 0;
-    const expr *made = rule(in);
-    in->context = outer;
-    return made;
-}
-
 const expr *parse_condition(parser *in) {
-    const expr *made = parse_by(in, CONTEXT_EVENT, parse_any);
+    in->context = CONTEXT_EVENT;
+    in->nesting = 0;
+    const expr *made = parse_any(in);
     return made == NULL || made->is_condition ? made : missing_comparison(in);
 }
 
 const expr *parse_expression(parser *in, expr_context context) {
-    return parse_by(in, context, parse_sum);
+    in->context = context;
+    in->nesting = 0;
+    return parse_sum(in);
 }
 
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
-                    const char *hint, const expr **value) {
+                    const char *hint, const assignment **list, int *count) {
     if (!parser_is_sign(in, '=')) {
         return parser_fail(in, hint, "'=' is missing after %s, before %s", token_words(in, name),
                            token_words(in, &in->token));
     }
     parser_next(in);
     const place at = in->token.at;
-    *value = parse_expression(in, context);
-    if (*value != NULL && of != NULL) {
-        (void)check_value(in, at, *value, of, name);
+    const assignment made = {of, name->primes, parse_expression(in, context), name->at};
+    if (made.value != NULL && of != NULL) {
+        (void)check_value(in, at, made.value, of, name);
+        *list = arena_push(in->arena, *list, count, &made, sizeof made);
     }
-    return *value != NULL;
+    return made.value != NULL;
 }

@@ -11,8 +11,6 @@
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
 /* Reads the condition of a hold as one expression, above zero if the condition is true. NULL after an error. */
 const expr *parse_condition(parser *in);
-/* reads the ')' that closes `open` */
-bool parse_close(parser *in, place open);
 /* Reads the current unit token, or a unit without brackets up to the end of the text. *text has no blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
@@ -23,9 +21,9 @@ void no_such_coordinate(parser *in, const token *name);
 /* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
-/* Reads "= EXPR", the value of `name`, and checks it unless the name is unknown (`of` is NULL). */
+/* Reads "= EXPR", the value of `name`; checks it and appends it to the list, unless `of` is NULL (a reported name). */
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
-                    const char *hint, const expr **value);
+                    const char *hint, const assignment **list, int *count);
 /* Reports an error if `list` already assigns to `name`; `verb` is "set" or "given". */
 void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
                          const token *name, const char *verb);

@@ -186,13 +186,12 @@ enum { WORDS_SIZE = 120 };
 /* The values from the scene and from the command line, which overrides the scene. */
 typedef struct plan {
     valuation values;
-    given_value *input;  /* [input_count] */
-    given_value **start; /* the instance's start_given */
-    given_value step;
-    given_value until;
+    given_value *input; /* [input_count] */
+    const expr *step;   /* NULL: not given */
+    const expr *until;
 } plan;
 
-static void apply(plan *into, const assignment *change) {
+static void apply(plan *into, instance *made, const assignment *change) {
     const int index = change->symbol->index;
     const given_value value = {change->value, change->at};
     switch (change->symbol->kind) {
@@ -202,7 +201,7 @@ static void apply(plan *into, const assignment *change) {
         break;
     case SYM_INPUT: into->input[index] = value; break;
     case SYM_COORDINATE:
-    case SYM_STATE: into->start[index][change->primes] = value; break;
+    case SYM_STATE: made->start_given[index][change->primes] = value; break;
     case SYM_LET:
     case SYM_OUTPUT:
     case SYM_RECORD: break; /* refused by the parser */
@@ -211,7 +210,7 @@ static void apply(plan *into, const assignment *change) {
 
 static plan plan_new(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
-    plan fresh = {.values = valuation_new(of, made->arena, all), .start = made->start_given};
+    plan fresh = {.values = valuation_new(of, made->arena, all)};
     fresh.input = arena_alloc(made->arena, (size_t)of->input_count * sizeof *fresh.input);
     for (int i = 0; i < of->input_count; i++) {
         fresh.input[i] = (given_value){of->inputs[i]->value, of->inputs[i]->at};
@@ -220,23 +219,17 @@ static plan plan_new(const instance *made, diags *all) {
 }
 
 static void apply_scene(plan *into, const scene *from, instance *made) {
-    for (int i = 0; i < from->mechanism->effect_count; i++) {
-        made->with[i] = from->with[i];
-    }
+    memcpy(made->with, from->with, (size_t)from->mechanism->effect_count * sizeof *made->with);
     made->ledger = from->ledger;
     made->conserve = from->conserve;
     for (int i = 0; i < from->set_count; i++) {
-        apply(into, &from->sets[i]);
+        apply(into, made, &from->sets[i]);
     }
     for (int i = 0; i < from->start_count; i++) {
-        apply(into, &from->starts[i]);
+        apply(into, made, &from->starts[i]);
     }
-    if (from->step != NULL) {
-        into->step = (given_value){from->step, from->step->at};
-    }
-    if (from->until != NULL) {
-        into->until = (given_value){from->until, from->until->at};
-    }
+    into->step = from->step;
+    into->until = from->until;
 }
 
 /* Reports a change of a symbol whose effect is inactive, and returns false. */
@@ -277,7 +270,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
         if (override_parse(made->mechanism, kind, texts[i], NULL, made->arena, all, &change) &&
             takes_part(made, kind, &change, all) && is_first(taken, taken_count, &change, all)) {
             taken[taken_count++] = change;
-            apply(into, &change);
+            apply(into, made, &change);
         }
     }
 }
@@ -323,42 +316,44 @@ static void apply_overrides(plan *into, instance *made, const overrides *changes
     apply_texts(into, made, OVERRIDE_EITHER, changes->values, changes->value_count);
     if (changes->step != NULL) {
         const expr *value = override_duration(of, "step", changes->step, made->arena, all);
-        into->step = value == NULL ? into->step : (given_value){value, value->at};
+        into->step = value == NULL ? into->step : value;
     }
     if (changes->until != NULL) {
         const expr *value = override_duration(of, "until", changes->until, made->arena, all);
-        into->until = value == NULL ? into->until : (given_value){value, value->at};
+        into->until = value == NULL ? into->until : value;
     }
 }
 
 static void evaluate_durations(plan *from, instance *made) {
     valuation *values = &from->values;
+    const expr *step = from->step;
+    const expr *until = from->until;
     const size_t before = diags_calls(values->diags);
     made->step_s = STEP_DEFAULT_S;
     made->until_s = UNTIL_DEFAULT_S;
-    if (from->step.value != NULL) {
-        made->step_s = finite_value(from->step.value, values, from->step.at, "step");
+    if (step != NULL) {
+        made->step_s = finite_value(step, values, step->at, "step");
         if (!(made->step_s > 0.0)) {
-            diag_error(values->diags, from->step.at, NULL, "step must be above zero");
+            diag_error(values->diags, step->at, NULL, "step must be above zero");
         } else if (made->step_s < RATIO_LEAST || made->step_s > RATIO_MOST) {
-            diag_error(values->diags, from->step.at, NULL,
+            diag_error(values->diags, step->at, NULL,
                        "a step must be from %g s to %g s, and this is %.9g s", RATIO_LEAST,
                        RATIO_MOST, made->step_s);
         }
     }
-    if (from->until.value != NULL) {
-        made->until_s = finite_value(from->until.value, values, from->until.at, "until");
+    if (until != NULL) {
+        made->until_s = finite_value(until, values, until->at, "until");
         if (!(made->until_s >= 0.0)) {
-            diag_error(values->diags, from->until.at, NULL, "until must not be negative");
+            diag_error(values->diags, until->at, NULL, "until must not be negative");
         } else if (made->until_s > RATIO_MOST) {
-            diag_error(values->diags, from->until.at, NULL,
+            diag_error(values->diags, until->at, NULL,
                        "until must be at most %g s, and this is %.9g s", RATIO_MOST, made->until_s);
         }
     }
     if (diags_calls(values->diags) != before) {
         return;
     }
-    const place at = from->until.value != NULL ? from->until.at : from->step.at;
+    const place at = until != NULL ? until->at : step != NULL ? step->at : made->mechanism->at;
     made->step = ratio_of(made->step_s);
     if (!ratio_count(ratio_of(made->until_s), made->step, &made->steps)) {
         diag_error(values->diags, at, "use a larger step or an earlier until",

@@ -39,6 +39,11 @@ typedef struct symbol {
     const struct symbol *driven;
 } symbol;
 
+/* Is it a coordinate or a state? */
+static inline bool symbol_moves(const symbol *s) {
+    return s->kind == SYM_COORDINATE || s->kind == SYM_STATE;
+}
+
 /* Returns the driven coordinate of an input with a rate (*primes = 0), or of such a rate (*primes = 1); else `s`. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 

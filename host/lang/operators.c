@@ -203,12 +203,9 @@ static dimension common_dimension(parser *in, place at, const expr *left, const 
         check_bare(in, right, angle_of(left));
         return common;
     }
-    const char *hint = NULL;
-    if (is_bare_number(right)) {
-        hint = number_hint(in, right, left->dim);
-    } else if (is_bare_number(left)) {
-        hint = number_hint(in, left, right->dim);
-    }
+    const char *hint = is_bare_number(right)  ? number_hint(in, right, left->dim)
+                       : is_bare_number(left) ? number_hint(in, left, right->dim)
+                                              : NULL;
     diag_error(
         in->diags, at, hint, "cannot %s %s %s %s", before,
         dim_is_none(left->dim) ? "a dimensionless number" : dimension_words(in, left->dim), between,
@@ -281,23 +278,13 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
 
 /* Do the two expressions have the same operators and operands in the same order? */
 static bool are_same(const expr *a, const expr *b) {
-    if (a == NULL || b == NULL || a->op != b->op) {
+    if (a == NULL || b == NULL) {
         return a == b;
     }
-    switch (a->op) {
-    case EXPR_NUMBER: return a->number == b->number;
-    case EXPR_SYMBOL: return a->symbol == b->symbol && a->primes == b->primes;
-    case EXPR_CALL:
-        return a->function == b->function && are_same(a->left, b->left) &&
-               are_same(a->right, b->right);
-    case EXPR_ADD:
-    case EXPR_SUB:
-    case EXPR_MUL:
-    case EXPR_DIV:
-    case EXPR_POW:
-    case EXPR_NEG: return are_same(a->left, b->left) && are_same(a->right, b->right);
-    }
-    return false;
+    /* members that an operator does not use are 0 */
+    return a->op == b->op && a->number == b->number && a->symbol == b->symbol &&
+           a->primes == b->primes && a->function == b->function && are_same(a->left, b->left) &&
+           are_same(a->right, b->right);
 }
 
 const expr *expr_difference(parser *in, place at, const expr *left, const expr *right) {

@@ -27,11 +27,10 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
     if (made == NULL) {
         return NULL;
     }
-    if (in->token.kind != TOKEN_END && !parser_end_statement(in, "the value")) {
-        return NULL;
-    }
     if (in->token.kind != TOKEN_END) {
-        parser_fail(in, NULL, "%s is unexpected here", token_words(in, &in->token));
+        if (parser_end_statement(in, "the value")) {
+            parser_fail(in, NULL, "%s is unexpected here", token_words(in, &in->token));
+        }
         return NULL;
     }
     const bool is_bare = made->uses == 0 && dim_is_none(made->dim);
@@ -43,7 +42,7 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
 
 /* May this option change the symbol? If not, reports the reason. */
 static bool check_target(parser *in, override_kind kind, const token *name, const symbol *target) {
-    const bool moves = target->kind == SYM_COORDINATE || target->kind == SYM_STATE;
+    const bool moves = symbol_moves(target);
     const bool is_constant = target->kind == SYM_PARAMETER || target->kind == SYM_INPUT;
     const char *problem = NULL;
     const char *hint = NULL;
@@ -109,23 +108,16 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
     return diags_calls(all) == before ? made : NULL;
 }
 
-/* Returns the coordinate, state or output of this name without its primes (*primes), or NULL. */
-static const symbol *quantity_named(const mechanism *of, const char *name, int *primes) {
-    const size_t length = strcspn(name, "'");
-    const named *known = names_find(of->names, name, length);
-    *primes = (int)(strlen(name) - length);
-    return known != NULL && (int)strspn(name + length, "'") == *primes &&
-                   (known->symbol.kind == SYM_COORDINATE || known->symbol.kind == SYM_STATE ||
-                    known->symbol.kind == SYM_OUTPUT)
-               ? &known->symbol
-               : NULL;
-}
-
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *all) {
     const size_t calls = diags_calls(all);
-    int primes;
-    const symbol *known = quantity_named(of, name, &primes);
+    const size_t length = strcspn(name, "'");
+    const int primes = (int)(strlen(name) - length);
+    const named *found = names_find(of->names, name, length);
+    const symbol *known = found != NULL && (int)strspn(name + length, "'") == primes &&
+                                  (symbol_moves(&found->symbol) || found->symbol.kind == SYM_OUTPUT)
+                              ? &found->symbol
+                              : NULL;
     dimension wanted = dim_none();
     wanted.unknown = known == NULL || !dim_derivative(known->dim, primes, &wanted);
     parser in = begin(of, text, arena, all);

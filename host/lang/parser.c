@@ -63,6 +63,13 @@ named *names_add(names *all, const char *text, size_t length) {
     return entry;
 }
 
+void names_add_placeholder(names *all, const token *name) {
+    named *made = names_add(all, name->text, name->length);
+    made->is_placeholder = true;
+    made->symbol.kind = SYM_LET;
+    made->symbol.dim.unknown = true;
+}
+
 void names_offer(const names *all, int effect_index, nearest *search) {
     for (int i = 0; i < all->count; i++) {
         const named *each = all->entries[i];
@@ -269,6 +276,7 @@ bool parser_end_statement(parser *in, const char *what) {
     }
     const char *words = token_words(in, &in->token);
     const char *first = first_word_hint(in->token.text, in->token.length);
+    const char *hint = "begin a new line after the statement";
     switch (in->token.kind) {
     case TOKEN_UNIT:
         return parser_fail(in, "write a number before the unit: 2 [kg]", "a unit without a number");
@@ -280,19 +288,22 @@ bool parser_end_statement(parser *in, const char *what) {
         if (in->token.sign == ')') {
             return parser_fail(in, NULL, "')' without '('");
         }
-        return parser_fail(in,
-                           is_decimal_comma(&in->token) ? "write a decimal point: 2.5"
-                           : first != NULL              ? first
-                           : parser_is_sign(in, '(')    ? parser_operator_hint(in)
-                                                        : "begin a new line after the statement",
-                           "%s is unexpected after %s", words, what);
+        hint = is_decimal_comma(&in->token) ? "write a decimal point: 2.5"
+               : first != NULL              ? first
+               : in->token.sign == '('      ? parser_operator_hint(in)
+                                            : hint;
+        break;
     case TOKEN_STRING:
     case TOKEN_BAD:
     case TOKEN_END:
     case TOKEN_NEWLINE: break;
     }
-    return parser_fail(in, "begin a new line after the statement", "%s is unexpected after %s",
-                       words, what);
+    return parser_fail(in, hint, "%s is unexpected after %s", words, what);
+}
+
+void parser_add_symbol(parser *in, const symbol ***list, int *count, symbol *made) {
+    made->index = *count;
+    *list = arena_push(in->arena, *list, count, &made, sizeof made);
 }
 
 char *parser_copy_text(parser *in, const token *each) {
@@ -326,10 +337,7 @@ bool statement_unknown(parser *in, unsigned where) {
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;
         if (fresh && (declared != &word || parser_is_sign(in, '='))) {
-            named *unknown = names_add(in->builder->names, declared->text, declared->length);
-            unknown->is_placeholder = true;
-            unknown->symbol.kind = SYM_LET;
-            unknown->symbol.dim.unknown = true;
+            names_add_placeholder(in->builder->names, declared);
         }
     }
     const statement_word *elsewhere = token_statement(&word);

@@ -25,6 +25,8 @@ names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
 /* Adds an entry. The name must be new. */
 named *names_add(names *all, const char *text, size_t length);
+/* Adds a name that is not declared, and reported: this prevents a second report. */
+void names_add_placeholder(names *all, const token *name);
 /* Offers to the search the names declared outside effects, and those of effect `effect_index` (-1: none, -2: all). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
@@ -130,6 +132,8 @@ bool parser_in_block(parser *in, unsigned rule, bool *closed);
 /* Returns the hint for a missing operator before the current name, number or '('. */
 const char *parser_operator_hint(const parser *in);
 bool parser_end_statement(parser *in, const char *what);
+/* Appends `made` to a list of the mechanism. The symbol's index is its number in the list. */
+void parser_add_symbol(parser *in, const symbol ***list, int *count, symbol *made);
 char *parser_copy_text(parser *in, const token *each);
 /* Reads an optional text in quotes; returns "" if there is none. */
 const char *parser_title(parser *in);

@@ -5,104 +5,7 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* *found is NULL if the name is unknown (reported) */
-static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
-                              named **found);
-/* Reads ITEM {, ITEM}. A line may end after a comma. */
-static bool scene_list(parser *in, const statement_word *word, statement_reader *read);
-
-static bool is_number(const expr *tree) {
-    while (tree->op == EXPR_NEG) {
-        tree = tree->left;
-    }
-    return tree->op == EXPR_NUMBER;
-}
-
-/* In -5 .. 5 [m], the number without a unit gets the unit of the other number. */
-static const expr *with_unit(parser *in, const expr *low, const expr *high) {
-    if (!is_number(low) || !is_number(high) || low->uses != 0 || (high->uses & USES_UNIT) == 0) {
-        return low;
-    }
-    expr *made = expr_new(in, EXPR_NUMBER, low->at);
-    made->number = expr_value(low, NULL) * in->number_unit.scale / in->number_unit.divisor;
-    made->dim = in->number_unit.dim;
-    made->dim.any = made->number == 0.0;
-    made->uses = USES_UNIT;
-    return made;
-}
-
-static bool has_range(parser *in, const token *name, const named *found) {
-    const symbol *what = &found->symbol;
-    const bool moves = what->kind == SYM_COORDINATE || what->kind == SYM_STATE;
-    const scene *made = in->draft->made;
-    if (!moves && what->kind != SYM_INPUT) {
-        diag_error(in->diags, name->at, NULL,
-                   "range takes coordinates, their rates and inputs, but '%s' is none of these",
-                   what->name);
-        return false;
-    }
-    if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
-        diag_error(in->diags, name->at, NULL,
-                   moves ? "the derivative of '%s' follows from the equations, so it has no range"
-                         : "'%s' is an input: its rate has no range; leave out the prime",
-                   what->name);
-        return false;
-    }
-    for (int i = 0; i < made->range_count; i++) {
-        if (made->ranges[i].symbol == what && made->ranges[i].primes == name->primes) {
-            diag_error(in->diags, name->at, NULL,
-                       "the range of '%s%.*s' was already given in line %d", what->name,
-                       name->primes, "'''''''''", made->ranges[i].at.line);
-            return false;
-        }
-    }
-    return true;
-}
-
-static bool range_item(parser *in, const statement_word *word) {
-    draft *into = in->draft;
-    scene *made = into->made;
-    token name;
-    named *found = NULL;
-    if (!scene_take_symbol(in, into, word, &name, &found)) {
-        return false;
-    }
-    const bool usable = found != NULL && !found->is_placeholder && has_range(in, &name, found);
-    const char *words = token_words(in, &name);
-    if (!parser_expect_sign(in, '=', "after the name")) {
-        return false;
-    }
-    const place low_at = in->token.at;
-    const expr *low = parse_expression(in, CONTEXT_CONSTANT);
-    if (low == NULL || !parser_is_sign(in, SIGN_TO)) {
-        return low == NULL
-                   ? false
-                   : parser_fail(in, word->form, "'..' is missing in the range of %s", words);
-    }
-    parser_next(in);
-    const place high_at = in->token.at;
-    const expr *high = parse_expression(in, CONTEXT_CONSTANT);
-    if (high == NULL) {
-        return false;
-    }
-    if (!usable) {
-        return true;
-    }
-    static const char *const nothing[] = {"", ""};
-    in->around = nothing; /* hints quote one end of the range, without the name */
-    low = with_unit(in, low, high);
-    if (check_value(in, low_at, low, &found->symbol, &name) &&
-        check_value(in, high_at, high, &found->symbol, &name)) {
-        const range_statement one = {&found->symbol, name.primes, low, high, name.at};
-        made->ranges = arena_push(in->arena, made->ranges, &made->range_count, &one, sizeof one);
-    }
-    in->around = NULL;
-    return true;
-}
-
-bool read_range(parser *in, const statement_word *word) { return scene_list(in, word, range_item); }
-
-/* === the lists of a scene: with, set, start, conserve ========================================= */
+/* === the lists of a scene: with, set, start, conserve, range ================================== */
 
 static bool scene_fail_name(parser *in, const statement_word *word) {
     return parser_fail(in,
@@ -112,7 +15,7 @@ static bool scene_fail_name(parser *in, const statement_word *word) {
                        "%s needs a name, not %s", word->text, token_words(in, &in->token));
 }
 
-static bool with_item(parser *in, const statement_word *word) {
+static bool read_with(parser *in, const statement_word *word) {
     draft *into = in->draft;
     if (in->token.kind != TOKEN_NAME) {
         return scene_fail_name(in, word);
@@ -139,51 +42,41 @@ static bool with_item(parser *in, const statement_word *word) {
     return true;
 }
 
-static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
-                              named **found) {
+/* Reads a name. *found is NULL if it is unknown (reported). */
+static bool scene_take_symbol(parser *in, const statement_word *word, token *name,
+                              const symbol **found) {
     if (in->token.kind != TOKEN_NAME) {
         return scene_fail_name(in, word);
     }
     *name = in->token;
     parser_next(in);
-    *found = names_find(into->of->names, name->text, name->length);
-    if (*found == NULL) {
-        no_such_symbol(in, into->made->mechanism, name);
+    const named *known = names_find(in->draft->of->names, name->text, name->length);
+    if (known == NULL) {
+        no_such_symbol(in, in->draft->made->mechanism, name);
     }
+    *found = known == NULL || known->is_placeholder ? NULL : &known->symbol;
     return true;
 }
 
-static bool set_item(parser *in, const statement_word *word) {
-    draft *into = in->draft;
-    scene *made = into->made;
+static bool read_set(parser *in, const statement_word *word) {
+    scene *made = in->draft->made;
     token name;
-    named *found = NULL;
-    const expr *value = NULL;
-    if (!scene_take_symbol(in, into, word, &name, &found)) {
+    const symbol *what;
+    if (!scene_take_symbol(in, word, &name, &what)) {
         return false;
     }
-    bool usable = found != NULL && !found->is_placeholder;
-    if (usable && found->symbol.kind != SYM_PARAMETER && found->symbol.kind != SYM_INPUT) {
-        const bool moves = found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE;
-        diag_error(in->diags, name.at, moves ? "give its initial value with start" : NULL,
-                   "only parameters and inputs can be set, and '%s' is neither",
-                   found->symbol.name);
-        usable = false;
-    } else if (usable && name.primes > 0) {
-        diag_error(in->diags, name.at, NULL, "'%s' has no derivative", found->symbol.name);
-        usable = false;
-    } else if (usable) {
-        check_assigned_once(in, made->sets, made->set_count, &found->symbol, &name, "set");
+    if (what != NULL && what->kind != SYM_PARAMETER && what->kind != SYM_INPUT) {
+        diag_error(in->diags, name.at,
+                   symbol_moves(what) ? "give its initial value with start" : NULL,
+                   "only parameters and inputs can be set, and '%s' is neither", what->name);
+        what = NULL;
+    } else if (what != NULL && name.primes > 0) {
+        diag_error(in->diags, name.at, NULL, "'%s' has no derivative", what->name);
+        what = NULL;
+    } else if (what != NULL) {
+        check_assigned_once(in, made->sets, made->set_count, what, &name, "set");
     }
-    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, CONTEXT_CONSTANT, NULL,
-                        &value)) {
-        return false;
-    }
-    if (usable) {
-        const assignment set = {&found->symbol, 0, value, name.at};
-        made->sets = arena_push(in->arena, made->sets, &made->set_count, &set, sizeof set);
-    }
-    return true;
+    return parse_assigned(in, &name, what, CONTEXT_CONSTANT, NULL, &made->sets, &made->set_count);
 }
 
 /* Reports a `set` for a symbol of an unselected effect. Called at the scene's end, because `with` may follow `set`. */
@@ -202,82 +95,129 @@ static void scene_check_sets(parser *in, const draft *read) {
     }
 }
 
-static bool start_item(parser *in, const statement_word *word) {
-    draft *into = in->draft;
-    scene *made = into->made;
+static bool read_start(parser *in, const statement_word *word) {
+    scene *made = in->draft->made;
     token name;
-    named *found = NULL;
-    const expr *value = NULL;
-    if (!scene_take_symbol(in, into, word, &name, &found)) {
+    const symbol *what;
+    if (!scene_take_symbol(in, word, &name, &what)) {
         return false;
     }
-    bool usable = found != NULL && !found->is_placeholder;
-    if (usable && found->symbol.kind != SYM_COORDINATE && found->symbol.kind != SYM_STATE) {
-        const bool sets = found->symbol.kind == SYM_PARAMETER || found->symbol.kind == SYM_INPUT;
+    if (what != NULL && !symbol_moves(what)) {
+        const bool sets = what->kind == SYM_PARAMETER || what->kind == SYM_INPUT;
         diag_error(in->diags, name.at, sets ? "use set for it" : NULL,
-                   "start takes coordinates and their rates, and '%s' is neither",
-                   found->symbol.name);
-        usable = false;
-    } else if (usable && name.primes >= found->symbol.order && found->symbol.order > 0) {
+                   "start takes coordinates and their rates, and '%s' is neither", what->name);
+        what = NULL;
+    } else if (what != NULL && name.primes >= what->order && what->order > 0) {
         diag_error(
             in->diags, name.at, NULL,
             "start takes '%s' with at most %d prime%s: higher derivatives follow from the equations",
-            found->symbol.name, found->symbol.order - 1, found->symbol.order == 2 ? "" : "s");
-        usable = false;
-    } else if (usable) {
-        check_assigned_once(in, made->starts, made->start_count, &found->symbol, &name, "given");
+            what->name, what->order - 1, what->order == 2 ? "" : "s");
+        what = NULL;
+    } else if (what != NULL) {
+        check_assigned_once(in, made->starts, made->start_count, what, &name, "given");
     }
-    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, CONTEXT_CONSTANT, NULL,
-                        &value)) {
-        return false;
-    }
-    if (usable) {
-        const assignment start = {&found->symbol, name.primes, value, name.at};
-        made->starts =
-            arena_push(in->arena, made->starts, &made->start_count, &start, sizeof start);
-    }
-    return true;
+    return parse_assigned(in, &name, what, CONTEXT_CONSTANT, NULL, &made->starts,
+                          &made->start_count);
 }
 
-static bool conserve_item(parser *in, const statement_word *word) {
-    draft *into = in->draft;
+static bool read_conserve(parser *in, const statement_word *word) {
     token name;
-    named *found = NULL;
-    if (!scene_take_symbol(in, into, word, &name, &found)) {
+    const symbol *what;
+    if (!scene_take_symbol(in, word, &name, &what)) {
         return false;
     }
-    if (found == NULL || found->is_placeholder) {
-        return true;
-    }
-    if (found->symbol.kind != SYM_COORDINATE || name.primes > 0) {
+    if (what != NULL && (what->kind != SYM_COORDINATE || name.primes > 0)) {
         diag_error(in->diags, name.at, NULL, "conserve takes coordinates, without primes");
-        return true;
+    } else if (what != NULL) {
+        in->draft->conserve[what->index] = true;
     }
-    into->conserve[found->symbol.index] = true;
     return true;
 }
 
-static bool scene_list(parser *in, const statement_word *word, statement_reader *read) {
-    for (;;) {
-        if (!read(in, word)) {
+static bool is_number(const expr *tree) {
+    while (tree->op == EXPR_NEG) {
+        tree = tree->left;
+    }
+    return tree->op == EXPR_NUMBER;
+}
+
+/* In -5 .. 5 [m], the number without a unit gets the unit of the other number. */
+static const expr *with_unit(parser *in, const expr *low, const expr *high) {
+    if (!is_number(low) || !is_number(high) || low->uses != 0 || (high->uses & USES_UNIT) == 0) {
+        return low;
+    }
+    expr *made = expr_new(in, EXPR_NUMBER, low->at);
+    made->number = expr_value(low, NULL) * in->number_unit.scale / in->number_unit.divisor;
+    made->dim = in->number_unit.dim;
+    made->dim.any = made->number == 0.0;
+    made->uses = USES_UNIT;
+    return made;
+}
+
+static bool has_range(parser *in, const token *name, const symbol *what) {
+    const bool moves = symbol_moves(what);
+    const scene *made = in->draft->made;
+    if (!moves && what->kind != SYM_INPUT) {
+        diag_error(in->diags, name->at, NULL,
+                   "range takes coordinates, their rates and inputs, but '%s' is none of these",
+                   what->name);
+        return false;
+    }
+    if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
+        diag_error(in->diags, name->at, NULL,
+                   moves ? "the derivative of '%s' follows from the equations, so it has no range"
+                         : "'%s' is an input: its rate has no range; leave out the prime",
+                   what->name);
+        return false;
+    }
+    for (int i = 0; i < made->range_count; i++) {
+        if (made->ranges[i].symbol == what && made->ranges[i].primes == name->primes) {
+            diag_error(in->diags, name->at, NULL,
+                       "the range of '%s%.*s' was already given in line %d", what->name,
+                       name->primes, "'''''''''", made->ranges[i].at.line);
             return false;
         }
-        if (!parser_is_sign(in, ',')) {
-            return parser_end_statement(in, "the list");
-        }
-        parser_next(in);
-        parser_skip_newlines(in);
     }
+    return true;
 }
 
-bool read_with(parser *in, const statement_word *word) { return scene_list(in, word, with_item); }
-
-bool read_set(parser *in, const statement_word *word) { return scene_list(in, word, set_item); }
-
-bool read_start(parser *in, const statement_word *word) { return scene_list(in, word, start_item); }
-
-bool read_conserve(parser *in, const statement_word *word) {
-    return scene_list(in, word, conserve_item);
+static bool read_range(parser *in, const statement_word *word) {
+    scene *made = in->draft->made;
+    token name;
+    const symbol *what;
+    if (!scene_take_symbol(in, word, &name, &what)) {
+        return false;
+    }
+    const bool usable = what != NULL && has_range(in, &name, what);
+    const char *words = token_words(in, &name);
+    if (!parser_expect_sign(in, '=', "after the name")) {
+        return false;
+    }
+    const place low_at = in->token.at;
+    const expr *low = parse_expression(in, CONTEXT_CONSTANT);
+    if (low == NULL || !parser_is_sign(in, SIGN_TO)) {
+        return low == NULL
+                   ? false
+                   : parser_fail(in, word->form, "'..' is missing in the range of %s", words);
+    }
+    parser_next(in);
+    const place high_at = in->token.at;
+    const expr *high = parse_expression(in, CONTEXT_CONSTANT);
+    if (high == NULL) {
+        return false;
+    }
+    if (!usable) {
+        return true;
+    }
+    static const char *const nothing[] = {"", ""};
+    in->around = nothing; /* hints quote one end of the range, without the name */
+    low = with_unit(in, low, high);
+    if (check_value(in, low_at, low, what, &name) && check_value(in, high_at, high, what, &name)) {
+        const range_statement one = {what, name.primes, low, high, name.at};
+        made->ranges = arena_push(in->arena, made->ranges, &made->range_count, &one, sizeof one);
+    }
+    in->around = NULL;
+    return true;
 }
 
 /* === the block and its statements ============================================================= */
@@ -292,7 +232,7 @@ static void choose_mechanism(parser *in, draft *into, builder *chosen) {
     in->names = chosen->names;
 }
 
-bool read_use(parser *in, const statement_word *word) {
+static bool read_use(parser *in, const statement_word *word) {
     draft *into = in->draft;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
         return scene_fail_name(in, word);
@@ -331,11 +271,11 @@ static bool parse_duration(parser *in, const statement_word *word, place *first,
     return parser_end_statement(in, "the expression");
 }
 
-bool read_step(parser *in, const statement_word *word) {
+static bool read_step(parser *in, const statement_word *word) {
     return parse_duration(in, word, &in->draft->step_at, &in->draft->made->step);
 }
 
-bool read_until(parser *in, const statement_word *word) {
+static bool read_until(parser *in, const statement_word *word) {
     return parse_duration(in, word, &in->draft->until_at, &in->draft->made->until);
 }
 
@@ -366,8 +306,15 @@ static bool parse_scene_statement(parser *in) {
     if (word == NULL || (word->stands & IN_SCENE) == 0) {
         return statement_unknown(in, IN_SCENE);
     }
+    statement_reader *const read = readers[word - word_row((word_id)0)];
     parser_next(in);
-    return readers[word - word_row((word_id)0)](in, word);
+    bool good = read(in, word);
+    while (good && (word->rules & LISTS) != 0 && parser_is_sign(in, ',')) {
+        parser_next(in);
+        parser_skip_newlines(in);
+        good = read(in, word);
+    }
+    return good && ((word->rules & LISTS) == 0 || parser_end_statement(in, "the list"));
 }
 
 static bool parse_body(parser *in) {
@@ -392,7 +339,9 @@ static bool parse_body(parser *in) {
     return parser_end_statement(in, "the scene");
 }
 
-static void read_scene(parser *in, const pending_scene *pending, draft *into) {
+void read_noted_scene(parser *in, const pending_scene *pending) {
+    draft *into = arena_alloc(in->arena, sizeof *into);
+    into->made = arena_alloc(in->arena, sizeof *into->made);
     in->lexer = pending->from;
     in->token = pending->next;
     in->draft = into;
@@ -429,16 +378,9 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     if (good && into->of == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
                    "scene '%s' belongs to no mechanism", into->made->name);
-    }
-    if (good && into->of != NULL) {
+    } else if (good) {
         scene_check_sets(in, into);
     }
     into->made->with = into->with;
     into->made->conserve = into->conserve;
-}
-
-void read_noted_scene(parser *in, const pending_scene *pending) {
-    draft into = {.made = arena_alloc(in->arena, sizeof *into.made)};
-    read_scene(in, pending, &into);
-    in->draft = NULL;
 }

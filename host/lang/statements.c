@@ -63,13 +63,12 @@ bool read_energy(parser *in, const statement_word *word) {
     if (value->op == EXPR_NUMBER) {
         check_dimension(in, value_at, value, wanted, term_rule(kind));
     } else if (!dim_fits(value->dim, wanted)) {
-        const bool needs_rate = kind != TERM_V && value->order == 0;
         diag_error(in->diags, value_at,
-                   needs_rate
-                       ? (kind == TERM_T
-                              ? "the expression contains no speed; write: T = m*l^2*theta'^2/2"
-                              : "the expression contains no speed; write: F = b*theta'^2/2")
-                       : "check the unit of each parameter; a number without one is dimensionless",
+                   kind == TERM_V || value->order > 0
+                       ? "check the unit of each parameter; a number without one is dimensionless"
+                   : kind == TERM_T
+                       ? "the expression contains no speed; write: T = m*l^2*theta'^2/2"
+                       : "the expression contains no speed; write: F = b*theta'^2/2",
                    "%s, but this is %s", term_rule(kind), dimension_words(in, value->dim));
     }
     add_term(in, (term){kind, NULL, value, NULL, in->effect, at});
@@ -203,18 +202,12 @@ static void finish_system(parser *in, builder *done) {
     }
 }
 
-/* Does the mechanism or an effect have a T? host/derive checks this for each scene. */
-static bool has_kinetic_energy(const mechanism *made) {
-    for (int i = 0; i < made->term_count; i++) {
-        if (made->terms[i].kind == TERM_T) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
+    bool has_T = false; /* also in an effect: host/derive checks each scene */
+    for (int i = 0; i < made->term_count; i++) {
+        has_T = has_T || made->terms[i].kind == TERM_T;
+    }
     made->is_system = done->has_equations;
     if (done->nameless || done->broken || done->mixed) {
         return; /* the missing part may be in the lines that failed */
@@ -227,7 +220,7 @@ static void finish_mechanism(parser *in, builder *done) {
     } else if (made->coordinate_count == 0) {
         diag_error(in->diags, made->at, "declare one with: coordinate theta [rad]",
                    "mechanism '%s' has no coordinate", made->name);
-    } else if (done->energy_at[0].line == 0 && !has_kinetic_energy(made)) {
+    } else if (!has_T) {
         diag_error(in->diags, made->at, "T = m*X'^2/2", "mechanism '%s' has no kinetic energy T",
                    made->name);
     }
@@ -377,9 +370,6 @@ static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
 /* Records whether the mechanism has energies or equations, and reports a mix. */
 static void note_way(parser *in, const statement_word *word) {
     builder *into = in->builder;
-    if (into == NULL) {
-        return; /* outside a mechanism: the word does not decide between energies and equations */
-    }
     into->has_equations |= (word->rules & BY_EQUATIONS) != 0;
     into->has_energies |= (word->rules & BY_ENERGIES) != 0;
     if (into->has_equations && into->has_energies && !into->mixed) {

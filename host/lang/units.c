@@ -166,12 +166,6 @@ static enclosure exact(const unit_entry *u) {
     return enclosure_div(exact_factor(u->scale), exact_factor(u->divisor));
 }
 
-/* Encloses base^exponent. An exponent that is not a multiple of 1/2 may have been rounded. */
-static enclosure exact_power(enclosure base, double exponent) {
-    const bool is_exact = number_nearest(2.0 * exponent) == 2.0 * exponent;
-    return enclosure_power(base, is_exact ? enclosure_of(exponent) : enclosure_about(exponent, 0));
-}
-
 static bool unknown_unit(reader *in, size_t start, size_t length) {
     const char *name = in->text + start;
     const int shown = length > 40 ? 40 : (int)length;
@@ -321,7 +315,10 @@ static bool read_factor(reader *in, unit_scale *result) {
         const double size = fabs(exponent); /* 1/ms is 1000/s: the factors change places */
         result->scale = number_power(exponent < 0.0 ? base.divisor : base.scale, size);
         result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
-        result->exact = exact_power(base.exact, exponent);
+        /* an exponent that is not a multiple of 1/2 may have been rounded */
+        const bool is_exact = number_nearest(2.0 * exponent) == 2.0 * exponent;
+        result->exact = enclosure_power(base.exact, is_exact ? enclosure_of(exponent)
+                                                             : enclosure_about(exponent, 0));
         if (!dim_power(base.dim, exponent, &result->dim)) {
             return fail(in, sign_at, "this exponent gives no valid dimension", "");
         }
@@ -486,31 +483,23 @@ bool dim_derivative(dimension of, int primes, dimension *derivative) {
            dim_multiply(of, per_time, derivative);
 }
 
-static void append(char *buffer, size_t size, const char *text) {
+/* Appends a sign and a factor such as "kg", "m^2" or "s^(1/2)", cut to `size` bytes. */
+static void append_factor(char *buffer, size_t size, const char *sign, const char *symbol,
+                          int twelfths) {
     const size_t used = strlen(buffer);
-    if (used + 1 < size) {
-        snprintf(buffer + used, size - used, "%s", text);
-    }
-}
-
-static void append_factor(char *buffer, size_t size, const char *symbol, int twelfths) {
-    char factor[32];
-    if (twelfths == DIM_DENOMINATOR) {
-        snprintf(factor, sizeof factor, "%s", symbol);
-    } else if (twelfths % DIM_DENOMINATOR == 0) {
-        snprintf(factor, sizeof factor, "%s^%d", symbol, twelfths / DIM_DENOMINATOR);
-    } else {
-        int above = twelfths;
-        int below = DIM_DENOMINATOR;
-        for (int divisor = 6; divisor > 1; divisor--) {
-            while (above % divisor == 0 && below % divisor == 0) {
-                above /= divisor;
-                below /= divisor;
-            }
+    int above = twelfths;
+    int below = DIM_DENOMINATOR;
+    for (int divisor = 3; divisor > 1; divisor--) {
+        while (above % divisor == 0 && below % divisor == 0) {
+            above /= divisor;
+            below /= divisor;
         }
-        snprintf(factor, sizeof factor, "%s^(%d/%d)", symbol, above, below);
     }
-    append(buffer, size, factor);
+    snprintf(buffer + used, size - used,
+             below > 1   ? "%s%s^(%d/%d)"
+             : above > 1 ? "%s%s^%d"
+                         : "%s%s",
+             sign, symbol, above, below);
 }
 
 /* Base units in the order in which products show them. */
@@ -528,18 +517,17 @@ char *dim_symbols(dimension dim, char *buffer, size_t size) {
     for (int i = 0; i < DIM_BASES; i++) {
         const int exponent = dim.twelfths[base_units[i].base];
         if (exponent > 0) {
-            append(buffer, size, buffer[0] == '\0' ? "" : "*");
-            append_factor(buffer, size, base_units[i].symbol, exponent);
+            append_factor(buffer, size, buffer[0] == '\0' ? "" : "*", base_units[i].symbol,
+                          exponent);
         }
     }
     if (buffer[0] == '\0') {
-        append(buffer, size, "1");
+        snprintf(buffer, size, "1");
     }
     for (int i = 0; i < DIM_BASES; i++) {
         const int exponent = dim.twelfths[base_units[i].base];
         if (exponent < 0) {
-            append(buffer, size, "/");
-            append_factor(buffer, size, base_units[i].symbol, -exponent);
+            append_factor(buffer, size, "/", base_units[i].symbol, -exponent);
         }
     }
     return buffer;

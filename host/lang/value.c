@@ -10,20 +10,15 @@
 #include "host/number/folding.h"
 
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size) {
-    bool none = true;
-    for (int i = 0; i < DIM_BASES; i++) {
-        none = none && dim.twelfths[i] == 0;
-    }
-    if (none || dim.any) {
+    if (dim_is_none(dim)) {
         snprintf(text, size, "%s", is_angle ? "rad" : "1");
         return text;
     }
     return dim_recorded_unit(dim, text, size);
 }
 
-unit_scale shown_unit(const symbol *s, int primes) {
+unit_scale shown_unit(const symbol *s) {
     const unit_scale si = {1.0, 1.0, s->dim, enclosure_of(1.0)};
-    (void)primes; /* a derivative has the same scale, because its unit only adds "per second" */
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }
 
@@ -164,8 +159,7 @@ static double symbol_value(const symbol *named, int primes, valuation *known) {
     if (named->kind == SYM_INPUT && known->input != NULL) {
         return known->input[named->index];
     }
-    const bool moves = named->kind == SYM_COORDINATE || named->kind == SYM_STATE;
-    if (moves && known->state != NULL && primes <= known->primes_most) {
+    if (symbol_moves(named) && known->state != NULL && primes <= known->primes_most) {
         return known->state[named->index][primes];
     }
     if (named->kind == SYM_LET && !known->let_known[named->index]) {

@@ -6,9 +6,9 @@
 
 /* === units of displayed numbers: the declared unit, or SI ===================================== */
 
-/* The display unit of an output, coordinate or state, or of its derivative: the declared unit, per second for each
- * prime ([deg]: deg/s, deg/s^2); SI if none is declared. */
-unit_scale shown_unit(const symbol *s, int primes);
+/* The display unit of a symbol: the declared unit, or SI if none is declared. It is also the scale of the unit of the
+ * symbol's derivatives, which is "per second" for each prime ([deg]: deg/s, deg/s^2). */
+unit_scale shown_unit(const symbol *s);
 
 /* Returns the name of the display unit, such as "deg/s", "kg*m/s^2", "rad" or "1". The caller frees it. */
 char *shown_unit_name(const symbol *s, int primes);

@@ -74,14 +74,15 @@ enum {
 
 /* Rules of a word. */
 enum {
-    RESERVED = 1,      /* not available as a user's name */
-    DECLARES = 2,      /* declares the name after it */
-    ENDS_EFFECT = 4,   /* at the start of a line in an effect: the effect's '}' is missing */
-    ENDS_SCENE = 8,    /* the same, for a scene */
-    ENDS_WHEN = 16,    /* the same, for a `when` */
-    INTO_EFFECT = 32,  /* in a scene, the message says that the statement belongs into an effect */
-    BY_ENERGIES = 64,  /* only for mechanisms given by their energies */
-    BY_EQUATIONS = 128 /* only for systems given by their equations */
+    RESERVED = 1,       /* not available as a user's name */
+    DECLARES = 2,       /* declares the name after it */
+    ENDS_EFFECT = 4,    /* at the start of a line in an effect: the effect's '}' is missing */
+    ENDS_SCENE = 8,     /* the same, for a scene */
+    ENDS_WHEN = 16,     /* the same, for a `when` */
+    INTO_EFFECT = 32,   /* in a scene, the message says that the statement belongs into an effect */
+    BY_ENERGIES = 64,   /* only for mechanisms given by their energies */
+    BY_EQUATIONS = 128, /* only for systems given by their equations */
+    LISTS = 256         /* ITEM {, ITEM}: the reader reads one item; a line may end after a comma */
 };
 #define FILE_FORM "a file begins with: mechanism NAME \"title\""
 #define ENDS_ALL (ENDS_EFFECT | ENDS_SCENE | ENDS_WHEN)
@@ -139,13 +140,13 @@ enum {
 /* Statements of scenes only (scene_block.c), with the same columns. */
 #define SCENE_WORD_ROWS(X) \
     X(USE, "use", IN_SCENE, RESERVED, read_use, 0, "use NAME") \
-    X(WITH, "with", IN_SCENE, RESERVED, read_with, 0, "with EFFECT, EFFECT") \
-    X(SET, "set", IN_SCENE, RESERVED, read_set, 0, "set m = 3 [kg]") \
-    X(START, "start", IN_SCENE, RESERVED, read_start, 0, "start x' = 1.2 [m/s]") \
+    X(WITH, "with", IN_SCENE, RESERVED | LISTS, read_with, 0, "with EFFECT, EFFECT") \
+    X(SET, "set", IN_SCENE, RESERVED | LISTS, read_set, 0, "set m = 3 [kg]") \
+    X(START, "start", IN_SCENE, RESERVED | LISTS, read_start, 0, "start x' = 1.2 [m/s]") \
     X(STEP, "step", IN_SCENE, RESERVED, read_step, 0, "step 1 [ms]") \
     X(UNTIL, "until", IN_SCENE, RESERVED, read_until, 0, "until 9 [s]") \
-    X(CONSERVE, "conserve", IN_SCENE, RESERVED, read_conserve, 0, "conserve X") \
-    X(RANGE, "range", IN_SCENE, 0, read_range, 0, "range x' = -2 .. 2 [m/s]")
+    X(CONSERVE, "conserve", IN_SCENE, RESERVED | LISTS, read_conserve, 0, "conserve X") \
+    X(RANGE, "range", IN_SCENE, LISTS, read_range, 0, "range x' = -2 .. 2 [m/s]")
 
 /* Words inside statements: id, spelling, rules. */
 #define INNER_WORD_ROWS(X) \

@@ -25,8 +25,8 @@ void show_lets_begin(show *s, const equations *e) {
     s->lets = alloc_tail(sizeof *s->lets, m->let_count, sizeof s->lets->row[0]);
     for (int i = 0; i < m->let_count; i++) {
         const symbol *let = m->lets[i];
-        const bool takes_part = let->effect < 0 || e->instance->with[let->effect];
-        const poly *value = takes_part ? poly_from_expr(s->algebra, let->value) : NULL;
+        const poly *value =
+            instance_has(e->instance, let->effect) ? poly_from_expr(s->algebra, let->value) : NULL;
         if (value != NULL && !algebra_overflow(s->algebra) && shortens(value)) {
             s->lets->row[s->lets->count++] = (let_row){let, value, false};
         }
@@ -188,12 +188,8 @@ static void show_close(const show *s) { fputs(s->style == SHOW_LATEX ? "\\right)
 static void show_exponent(const show *s, double exponent);
 
 static bool has_power_before(function_id f) {
-    static const function_id of[] = {FN_SIN, FN_COS, FN_TAN, FN_SINH, FN_COSH, FN_TANH};
-    bool found = false;
-    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
-        found = found || f == of[i];
-    }
-    return found;
+    return f == FN_SIN || f == FN_COS || f == FN_TAN || f == FN_SINH || f == FN_COSH ||
+           f == FN_TANH;
 }
 
 /* LaTeX needs no parentheses around a symbol. */
@@ -360,9 +356,12 @@ static int show_rank(const atom *x) {
     return 2;
 }
 
-void show_separate(const show *s, bool *first) {
+void show_times(const show *s) { fputs(s->style == SHOW_LATEX ? " \\, " : "*", s->out); }
+
+/* Prints the sign between two factors, unless this is the first. */
+static void show_separate(const show *s, bool *first) {
     if (!*first) {
-        fputs(s->style == SHOW_LATEX ? " \\, " : "*", s->out);
+        show_times(s);
     }
     *first = false;
 }
@@ -414,11 +413,11 @@ static void show_below(const show *s, const piece *p, double bottom) {
     fputs(s->style == SHOW_LATEX ? "}" : many ? ")" : "", s->out);
 }
 
-/* Prints 2*m*r*sin(a)/3, with `size` as the number; a factor 1 is printed only if it stands alone. */
-static void show_product(const show *s, const piece *p, double size) {
+/* Prints 2*m*r*sin(a)/3, without the sign; a factor 1 is printed only if it stands alone. */
+static void show_product(const show *s, const piece *p) {
     double top;
     double bottom;
-    show_as_fraction(size, &top, &bottom);
+    show_as_fraction(fabs(p->coefficient), &top, &bottom);
     const int below = show_count_below(p);
     const bool bar = bottom != 1.0 || below > 0;
     if (bar && s->style == SHOW_LATEX) {
@@ -431,10 +430,9 @@ static void show_product(const show *s, const piece *p, double size) {
         show_number(s, top);
     }
     show_factors(s, p, 1, &first);
-    if (!bar) {
-        return;
+    if (bar) {
+        show_below(s, p, bottom);
     }
-    show_below(s, p, bottom);
 }
 
 /* === sums ===================================================================================== */
@@ -480,34 +478,31 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
     double bottom;
     show_as_fraction(fabs(ratio), &top, &bottom);
     const mono none = {0};
-    const piece number = {fabs(ratio), &none, NULL, 0, 0};
+    const piece number = {ratio, &none, NULL, 0, 0};
     if (top != 1.0 || bottom != 1.0) {
-        bool first = false;
-        show_product(s, &number, fabs(ratio));
-        show_separate(s, &first);
+        show_product(s, &number);
+        show_times(s);
     }
     show_symbol(s, let, 0);
 }
 
-/* If some terms of *p have a name, prints it and removes them from *p. */
-static bool show_let_part(const show *s, const poly **p, bool *leading) {
+/* Prints the names of terms of *p, and removes these terms from *p. Returns false if no term remains. */
+static bool show_let_parts(const show *s, const poly **p, bool *leading) {
     double ratio;
     const poly *rest;
-    const symbol *let = show_let(s, *p, false, &rest, &ratio);
-    if (let != NULL) {
+    const symbol *let;
+    while ((let = show_let(s, *p, false, &rest, &ratio)) != NULL) {
         show_named(s, let, ratio, *leading);
         *leading = false;
         *p = rest;
     }
-    return let != NULL;
+    return !poly_is_zero(*p);
 }
 
 /* Prints the terms of p, without the common factor `without`. */
 static void show_sum(const show *s, const poly *p, wave without, bool leading) {
-    while (without.angle == NULL && show_let_part(s, &p, &leading)) {
-        if (poly_is_zero(p)) {
-            return;
-        }
+    if (without.angle == NULL && !show_let_parts(s, &p, &leading)) {
+        return;
     }
     piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(s->algebra, p, pieces);
@@ -516,7 +511,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
         pieces[i].cosines -= without.cosines;
         pieces[i].angle = pieces[i].sines + pieces[i].cosines > 0 ? pieces[i].angle : NULL;
         show_sign(s, pieces[i].coefficient < 0.0, leading && i == 0);
-        show_product(s, &pieces[i], fabs(pieces[i].coefficient));
+        show_product(s, &pieces[i]);
     }
     free(pieces);
 }
@@ -622,10 +617,8 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
 
 /* Prints a sum without rates and without a common factor, such as K1*(X - L1) + K2*(...). */
 static void show_parted(const show *s, const poly *p, bool leading) {
-    while (show_let_part(s, &p, &leading)) {
-        if (poly_is_zero(p)) {
-            return;
-        }
+    if (!show_let_parts(s, &p, &leading)) {
+        return;
     }
     const atom *shared = shared_parameter(p);
     algebra *a = s->algebra;
@@ -659,10 +652,9 @@ static void show_parted(const show *s, const poly *p, bool leading) {
 /* Prints "*key", unless the key is 1. */
 static void show_behind(const show *s, const poly *key) {
     if (key->terms[0].mono->count > 0) {
-        bool first = false;
         const piece behind = {1.0, key->terms[0].mono, NULL, 0, 0};
-        show_separate(s, &first);
-        show_product(s, &behind, 1.0);
+        show_times(s);
+        show_product(s, &behind);
     }
 }
 
@@ -688,7 +680,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
         const poly *whole = poly_mul(a, p, key);
         if (!algebra_overflow(a) && pieces_of(a, whole, pieces) == 1) {
             show_sign(s, pieces[0].coefficient < 0.0, leading);
-            show_product(s, &pieces[0], fabs(pieces[0].coefficient));
+            show_product(s, &pieces[0]);
             free(pieces);
             return;
         }
@@ -721,7 +713,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     if (latex && !plain) {
         show before = *s;
         before.bracketed = true;
-        show_product(&before, &front, number);
+        show_product(&before, &front);
         first = false;
     } else if (!plain) {
         if (top != 1.0) {

@@ -53,8 +53,8 @@ const poly *show_common(algebra *a, const poly *p);
  * With `whole`, the quotients are whole numbers. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
-/* Prints the sign between two factors, unless this is the first. */
-void show_separate(const show *s, bool *first);
+/* Prints the sign between two factors. */
+void show_times(const show *s);
 typedef struct let_row {
     const symbol *let;
     const poly *value;

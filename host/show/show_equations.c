@@ -49,6 +49,8 @@ static const char *behind_group(span s) {
 
 static int larger(int a, int b) { return a > b ? a : b; }
 
+static span span_of(const char *text) { return (span){text, text + strlen(text)}; }
+
 static int width_of(span s);
 
 /* The width of the widest row of amsmath's aligned. */
@@ -123,25 +125,21 @@ static int width_of_command(span *s) {
 }
 
 /* Returns the width, rounded up. Subscripts and superscripts count as full-sized. */
-static int width_of_character(char c) {
-    return strchr("+-", c) != NULL         ? SIGN
-           : c == '='                      ? EQUALS
-           : strchr(" {}&\n^_", c) != NULL ? 0
-           : strchr("mMwW", c) != NULL     ? 10
-           : isupper((unsigned char)c)     ? 9
-           : isdigit((unsigned char)c)     ? 5
-                                           : 6;
-}
-
 static int width_of(span s) {
     int width = 0;
     while (s.from < s.end) {
         if (*s.from == '\\') {
             width += width_of_command(&s);
-        } else {
-            width += width_of_character(*s.from);
-            s.from++;
+            continue;
         }
+        const char c = *s.from++;
+        width += strchr("+-", c) != NULL         ? SIGN
+                 : c == '='                      ? EQUALS
+                 : strchr(" {}&\n^_", c) != NULL ? 0
+                 : strchr("mMwW", c) != NULL     ? 10
+                 : isupper((unsigned char)c)     ? 9
+                 : isdigit((unsigned char)c)     ? 5
+                                                 : 6;
     }
     return width;
 }
@@ -191,7 +189,7 @@ static span widest_group(span s) {
 static char *narrowed(span s, int limit) {
     char *text = alloc_copy(s.from, (size_t)(s.end - s.from));
     for (;;) {
-        const span all = {text, text + strlen(text)};
+        const span all = span_of(text);
         const int excess = width_of(all) - limit;
         const span group = widest_group(all);
         const int width = width_of(group);
@@ -199,7 +197,7 @@ static char *narrowed(span s, int limit) {
             return text;
         }
         char *inside = broken(group, larger(width - excess, NARROWEST));
-        if (width_of((span){inside, inside + strlen(inside)}) >= width) {
+        if (width_of(span_of(inside)) >= width) {
             free(inside);
             return text;
         }
@@ -220,7 +218,7 @@ static char *rows_of(span s, int limit, bool factors) {
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);
         char *part = broken((span){at, next}, limit - indent);
-        const int more = width_of((span){part, part + strlen(part)});
+        const int more = width_of(span_of(part));
         if (width > 0 && width + more > limit) {
             fputs(factors ? " \\\\\n    &\\quad \\times" : " \\\\\n    &\\quad", out);
             width = indent;
@@ -241,16 +239,15 @@ static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
         return alloc_copy(s.from, (size_t)(s.end - s.from));
     }
-    bool factors = next_break(s, false) == s.end;
-    char *rows = NULL;
+    const bool factors = next_break(s, false) == s.end;
     if (factors) {
         char *line = narrowed(s, limit);
-        if (width_of((span){line, line + strlen(line)}) <= limit || next_break(s, true) == s.end) {
+        if (width_of(span_of(line)) <= limit || next_break(s, true) == s.end) {
             return line;
         }
         free(line);
     }
-    rows = rows_of(s, limit, factors);
+    char *rows = rows_of(s, limit, factors);
     char *all = alloc_words("\\begin{aligned}\n    & %s\n  \\end{aligned}", rows);
     free(rows);
     return all;
@@ -259,7 +256,7 @@ static char *broken(span s, int limit) {
 static void put_row(FILE *out, const char *row) {
     const char *sign = strstr(row, " &= ");
     const span left = {row, sign};
-    const span right = {sign + strlen(" &= "), row + strlen(row)};
+    const span right = span_of(sign + strlen(" &= "));
     if (width_of(left) + width_of(right) + EQUALS <= LINE_WIDTH) {
         fputs(row, out);
         return;
@@ -375,35 +372,10 @@ static void write_row(const show *s, const char *before, const symbol *of, int p
     fputs(end, s->out);
 }
 
-/* *between: the text before the next row, at first "" */
-static void latex_rows(const show *s, const contact_law *law, const char **between) {
-    static const char next[] = " \\\\\n";
-    const contact_statement *from = law->from;
-    for (int i = 0; i < 2 && forms[from->kind].latex[i] != NULL && !contact_loosens(from); i++) {
-        show_row row;
-        fputs(*between, s->out);
-        *between = next;
-        const show *to = show_row_begin(&row, s);
-        show_form(to, law, forms[from->kind].latex[i]);
-        fputs(from->direction > 0   ? " \\text{ rising}"
-              : from->direction < 0 ? " \\text{ falling}"
-                                    : "",
-              to->out);
-        show_row_end(&row);
-    }
-    for (int i = 0; i < from->set_count; i++) {
-        fputs(*between, s->out);
-        *between = next;
-        write_row(s, "  \\text{set } ", from->sets[i].symbol, from->sets[i].primes,
-                  " &= ", law->set[i], "");
-    }
-}
-
 /* Prints the contacts in the style of `s`. Sums that `s` has names for are printed as names. */
 static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
-    const char *between = "";
     if (laws == NULL) {
         return;
     }
@@ -417,8 +389,29 @@ static void show_contacts(const show *s, const equations *e) {
         show_lines(s, e, "");
         return;
     }
+    const char *between = ""; /* the text before the next row */
     for (int k = 0; k < laws->count; k++) {
-        latex_rows(s, &laws->law[k], &between);
+        const contact_law *law = &laws->law[k];
+        const contact_statement *from = law->from;
+        const char *const *form = forms[from->kind].latex;
+        for (int i = 0; i < 2 && form[i] != NULL && !contact_loosens(from); i++) {
+            show_row row;
+            fputs(between, s->out);
+            between = " \\\\\n";
+            const show *to = show_row_begin(&row, s);
+            show_form(to, law, form[i]);
+            fputs(from->direction > 0   ? " \\text{ rising}"
+                  : from->direction < 0 ? " \\text{ falling}"
+                                        : "",
+                  to->out);
+            show_row_end(&row);
+        }
+        for (int i = 0; i < from->set_count; i++) {
+            fputs(between, s->out);
+            between = " \\\\\n";
+            write_row(s, "  \\text{set } ", from->sets[i].symbol, from->sets[i].primes,
+                      " &= ", law->set[i], "");
+        }
     }
     fputs("\n\\end{align*}\n", s->out);
 }
@@ -426,16 +419,15 @@ static void show_contacts(const show *s, const equations *e) {
 /* === the derivation, step by step ============================================================= */
 /* Lagrange's equations for one coordinate after another, as in a derivation by hand. */
 
-/* d/dt of the momentum: the mass matrix times the accelerations, plus `velocity` without its term -dT/dq. */
-static const poly *momentum_rate(const equations *e, int i) {
+/* Returns `rest` plus row i of the mass matrix times the highest derivatives. */
+static const poly *add_inertia(const equations *e, int i, const poly *rest) {
     algebra *a = e->algebra;
-    const poly *sum =
-        poly_add(a, e->velocity[i], poly_derivative(a, e->kinetic, e->unknowns[i].symbol, 0));
     for (int j = 0; j < e->count; j++) {
-        const poly *acceleration = poly_symbol(a, e->unknowns[j].symbol, 2);
-        sum = poly_add(a, sum, poly_mul(a, e->mass[i * e->count + j], acceleration));
+        const unknown *u = &e->unknowns[j];
+        const poly *highest = poly_symbol(a, u->symbol, u->order);
+        rest = poly_add(a, rest, poly_mul(a, e->mass[i * e->count + j], highest));
     }
-    return sum;
+    return rest;
 }
 
 /* The force of all statements of a kind, Q or -dF/dq', on coordinate i. */
@@ -464,8 +456,10 @@ static void write_coordinate(const show *s, const equations *e, int i) {
     const char *equals = latex ? "} &= " : " = ";
     const char *end = latex ? " \\\\\n" : "\n";
     write_row(s, by, q, 1, equals, e->momentum[i], end);
+    /* d/dt of the momentum: `velocity` without its term -dT/dq, and the inertia */
+    const poly *velocity = poly_add(a, e->velocity[i], poly_derivative(a, e->kinetic, q, 0));
     write_row(s, latex ? "  \\frac{d}{dt}\\frac{\\partial L}{\\partial " : "  d/dt(dL/d", q, 1,
-              latex ? equals : ") = ", momentum_rate(e, i), end);
+              latex ? equals : ") = ", add_inertia(e, i, velocity), end);
     write_row(s, by, q, 0, equals, slope, end);
     if (!poly_is_zero(loss)) {
         write_row(s, latex ? "  \\frac{\\partial F}{\\partial " : "  dF/d", q, 1, equals, loss,
@@ -502,34 +496,22 @@ void show_steps(FILE *out, const equations *e, show_style style) {
 /* Longer closed formulas for accelerations are unreadable: the mass matrix is printed instead. */
 #define READABLE_TERMS 24
 
-/* Inertia, centrifugal and potential terms of equation i. */
-static const poly *left_side(const equations *e, int i) {
-    algebra *a = e->algebra;
-    const poly *sum = poly_add(a, e->velocity[i], e->potential[i]);
-    for (int j = 0; j < e->count; j++) {
-        const unknown *u = &e->unknowns[j];
-        const poly *highest = poly_symbol(a, u->symbol, u->order);
-        sum = poly_add(a, sum, poly_mul(a, e->mass[i * e->count + j], highest));
-    }
-    return sum;
-}
-
+/* Writes the inertia, centrifugal and potential terms of equation i. */
 static void write_left_side(const show *s, const equations *e, int i) {
     algebra *a = s->algebra;
-    const poly *sum = left_side(e, i);
+    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]);
+    const poly *sum = add_inertia(e, i, rest);
     if (!algebra_overflow(a)) {
         show_poly(s, sum);
         return;
     }
     /* after an overflow, print A q'' + rest */
-    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]);
     bool leading = true;
     for (int j = 0; j < e->count; j++) {
         if (!poly_is_zero(e->mass[i * e->count + j])) {
-            bool first = false;
             fputs(leading ? "" : " + ", s->out);
             show_grouped(s, e->mass[i * e->count + j]);
-            show_separate(s, &first);
+            show_times(s);
             show_symbol(s, e->unknowns[j].symbol, e->unknowns[j].order);
             leading = false;
         }
@@ -559,18 +541,23 @@ static void write_shown(const show *s, const char *kind, const symbol *what) {
     free(unit_name);
 }
 
-/* Writes a parameter or input with its value in the file's unit, and its formula. */
-static void write_value(const show *s, const char *kind, const symbol *what, const expr *given,
-                        double si_value) {
-    const unit_scale unit = shown_unit(what, 0);
-    char *unit_name = shown_unit_name(what, 0);
-    char *formula = shown_formula(given);
-    fprintf(s->out, "  %-10s %-10s = %.10g [%s]%s%s%s%s\n", kind, what->name,
-            number_shown(si_value / unit.scale * unit.divisor), unit_name,
-            formula != NULL ? " = " : "", formula != NULL ? formula : "",
-            what->text[0] != '\0' ? "  " : "", what->text);
-    free(formula);
-    free(unit_name);
+/* Writes the active parameters or inputs: the SI values in the file's units, and the formulas. */
+static void write_values(const show *s, const equations *e, const char *kind,
+                         const symbol *const *list, int count, const double *value,
+                         const expr *const *given) {
+    for (int i = 0; i < count; i++) {
+        if (instance_has(e->instance, list[i]->effect)) {
+            const unit_scale unit = shown_unit(list[i]);
+            char *unit_name = shown_unit_name(list[i], 0);
+            char *formula = shown_formula(given[i]);
+            fprintf(s->out, "  %-10s %-10s = %.10g [%s]%s%s%s%s\n", kind, list[i]->name,
+                    number_shown(value[i] / unit.scale * unit.divisor), unit_name,
+                    formula != NULL ? " = " : "", formula != NULL ? formula : "",
+                    list[i]->text[0] != '\0' ? "  " : "", list[i]->text);
+            free(formula);
+            free(unit_name);
+        }
+    }
 }
 
 static void write_names(const show *s, const equations *e) {
@@ -585,19 +572,10 @@ static void write_names(const show *s, const equations *e) {
                                    : "coordinate",
                     m->coordinates[i]);
     }
-    for (int i = 0; i < m->parameter_count; i++) {
-        const symbol *p = m->parameters[i];
-        if (p->effect < 0 || e->instance->with[p->effect]) {
-            write_value(s, "parameter", p, e->instance->parameter_given[i],
-                        e->instance->parameter[i]);
-        }
-    }
-    for (int i = 0; i < m->input_count; i++) {
-        const symbol *u = m->inputs[i];
-        if (u->effect < 0 || e->instance->with[u->effect]) {
-            write_value(s, "input", u, e->instance->input_given[i], e->instance->input[i]);
-        }
-    }
+    write_values(s, e, "parameter", m->parameters, m->parameter_count, e->instance->parameter,
+                 e->instance->parameter_given);
+    write_values(s, e, "input", m->inputs, m->input_count, e->instance->input,
+                 e->instance->input_given);
     for (int i = 0; i < m->effect_count; i++) {
         if (e->instance->with[i]) {
             fprintf(s->out, "  with       %-10s %s\n", m->effects[i].name, m->effects[i].text);

@@ -51,15 +51,11 @@ static const char *find(const void *names, const symbol *sym, int primes) {
     return sym->name;
 }
 
-static bool takes_part(const equations *e, const symbol *s) {
-    return s->effect < 0 || e->instance->with[s->effect];
-}
-
 /* Writes lines such as "  K1 = 8756.3; % [kg/s^2] = 50 [lbf/in]: the first spring". */
 static void write_constants(const show *s, const equations *e, const symbol *const *list, int count,
                             const double *value, const expr *const *given) {
     for (int i = 0; i < count; i++) {
-        if (takes_part(e, list[i])) {
+        if (instance_has(e->instance, list[i]->effect)) {
             char *unit = shown_si_name(list[i], 0);
             char *written =
                 unit_is_si(list[i]->declared) ? shown_formula(given[i]) : shown_written(given[i]);
@@ -90,9 +86,9 @@ static void write_highest(const show *s, const equations *e, variables *all) {
         }
         return;
     }
-    char *A = alloc_words("%s", add(all, NULL, 0, "A"));
-    char *b = alloc_words("%s", add(all, NULL, 0, "b"));
-    char *x = alloc_words("%s", add(all, NULL, 0, "x"));
+    const char *A = add(all, NULL, 0, "A");
+    const char *b = add(all, NULL, 0, "b");
+    const char *x = add(all, NULL, 0, "x");
     fprintf(s->out, "  %s = zeros(%d, %d);\n  %s = zeros(%d, 1);\n", A, n, n, b, n);
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
@@ -111,21 +107,16 @@ static void write_highest(const show *s, const equations *e, variables *all) {
         fprintf(s->out, "  %s = %s(%d);\n", find(all, e->unknowns[i].symbol, e->unknowns[i].order),
                 x, i + 1);
     }
-    free(A);
-    free(b);
-    free(x);
 }
 
 static void name_all(variables *all, const equations *e) {
     const mechanism *m = e->instance->mechanism;
-    for (int i = 0; i < m->parameter_count; i++) {
-        add(all, m->parameters[i], 0, m->parameters[i]->name);
-    }
-    for (int i = 0; i < m->input_count; i++) {
-        add(all, m->inputs[i], 0, m->inputs[i]->name);
-    }
-    for (int i = 0; i < m->let_count; i++) {
-        add(all, m->lets[i], 0, m->lets[i]->name);
+    const symbol *const *const list[] = {m->parameters, m->inputs, m->lets};
+    const int count[] = {m->parameter_count, m->input_count, m->let_count};
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < count[k]; i++) {
+            add(all, list[k][i], 0, list[k][i]->name);
+        }
     }
     for (int primes = 0; primes <= PRIMES_MAX; primes++) {
         for (int i = 0; i < e->count; i++) {
