@@ -51,43 +51,29 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
     case SYM_COORDINATE:
     case SYM_STATE:
         return enter(k, (diagnostics_node){.code = DIAGNOSTICS_STATE, .a = s->index, .b = primes});
-    case SYM_LET: /* handled below */
+    case SYM_LET: /* of_expr() handles it */
     case SYM_OUTPUT:
     case SYM_RECORD: break; /* not in equations of motion */
     }
     return enter_number(k, (double)NAN);
 }
 
-static int of_expr(maker *k, const expr *tree);
-
-/* The nodes of a let are entered once. */
-static int of_let(maker *k, const symbol *let) {
-    if (k->let[let->index] < 0) {
-        k->let[let->index] = of_expr(k, let->value);
-    }
-    return k->let[let->index];
-}
-
-static int of_leaf(maker *k, const expr *tree) {
-    if (tree->op == EXPR_NUMBER) {
-        return enter_number(k, tree->number);
-    }
-    if (tree->symbol->kind == SYM_LET) {
-        return enter(k, (diagnostics_node){.code = DIAGNOSTICS_SAME, .a = of_let(k, tree->symbol)});
-    }
-    return enter_symbol(k, tree->symbol, tree->primes);
-}
-
 static int of_expr(maker *k, const expr *tree) {
     static const diagnostics_code codes[] = {
-        [EXPR_NUMBER] = DIAGNOSTICS_NUMBER, [EXPR_SYMBOL] = DIAGNOSTICS_SAME,
-        [EXPR_ADD] = DIAGNOSTICS_ADD,       [EXPR_SUB] = DIAGNOSTICS_SUB,
-        [EXPR_MUL] = DIAGNOSTICS_MUL,       [EXPR_DIV] = DIAGNOSTICS_DIV,
-        [EXPR_POW] = DIAGNOSTICS_POW,       [EXPR_NEG] = DIAGNOSTICS_NEG,
+        [EXPR_ADD] = DIAGNOSTICS_ADD,  [EXPR_SUB] = DIAGNOSTICS_SUB, [EXPR_MUL] = DIAGNOSTICS_MUL,
+        [EXPR_DIV] = DIAGNOSTICS_DIV,  [EXPR_POW] = DIAGNOSTICS_POW, [EXPR_NEG] = DIAGNOSTICS_NEG,
         [EXPR_CALL] = DIAGNOSTICS_CALL};
     int node;
-    if (tree->op == EXPR_NUMBER || tree->op == EXPR_SYMBOL) {
-        node = of_leaf(k, tree);
+    if (tree->op == EXPR_NUMBER) {
+        node = enter_number(k, tree->number);
+    } else if (tree->op == EXPR_SYMBOL && tree->symbol->kind == SYM_LET) {
+        int *let = &k->let[tree->symbol->index];
+        if (*let < 0) { /* the nodes of a let are entered once */
+            *let = of_expr(k, tree->symbol->value);
+        }
+        node = enter(k, (diagnostics_node){.code = DIAGNOSTICS_SAME, .a = *let});
+    } else if (tree->op == EXPR_SYMBOL) {
+        node = enter_symbol(k, tree->symbol, tree->primes);
     } else {
         const int a = of_expr(k, tree->left);
         const int b = tree->right != NULL ? of_expr(k, tree->right) : -1;
@@ -109,20 +95,17 @@ static int *node_of(known *of, unsigned id) {
 
 static int of_poly(maker *k, const poly *p);
 
-static int new_atom(maker *k, const atom *x) {
-    if (x->kind == ATOM_SYMBOL) {
-        return enter_symbol(k, x->symbol, x->primes);
-    }
-    const int a = of_poly(k, x->argument[0]);
-    const int b = x->argument[1] != NULL ? of_poly(k, x->argument[1]) : -1;
-    return x->kind == ATOM_GROUP   ? a
-           : x->kind == ATOM_POWER ? enter_op(k, DIAGNOSTICS_POW, 0, a, b)
-                                   : enter_op(k, DIAGNOSTICS_CALL, x->function, a, b);
-}
-
 static int of_atom(maker *k, const atom *x) {
-    const int before = *node_of(&k->atoms, x->id);
-    const int node = before > 0 ? before - 1 : new_atom(k, x);
+    int node = *node_of(&k->atoms, x->id) - 1;
+    if (node < 0 && x->kind == ATOM_SYMBOL) {
+        node = enter_symbol(k, x->symbol, x->primes);
+    } else if (node < 0) {
+        const int a = of_poly(k, x->argument[0]);
+        const int b = x->argument[1] != NULL ? of_poly(k, x->argument[1]) : -1;
+        node = x->kind == ATOM_GROUP   ? a
+               : x->kind == ATOM_POWER ? enter_op(k, DIAGNOSTICS_POW, 0, a, b)
+                                       : enter_op(k, DIAGNOSTICS_CALL, x->function, a, b);
+    }
     *node_of(&k->atoms, x->id) = node + 1;
     return node;
 }

@@ -227,13 +227,13 @@ const poly *equations_fold(const equations *e, const poly *p) {
     return poly_substitute(e->algebra, p, parameter_value, (void *)(uintptr_t)e->instance);
 }
 
-double equations_generic(uint64_t seed, const symbol *s, int primes) {
-    const int number = s->index + (s->kind == SYM_INPUT ? 1000 : 0);
-    uint64_t x =
-        seed * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)number * 8191U + (uint64_t)primes * 131071U;
+double equations_generic(void *seed, const symbol *s, int primes) {
+    const uint64_t state = *(const uint64_t *)seed;
+    const uint64_t number = (uint64_t)(s->index + (s->kind == SYM_INPUT ? 1000 : 0));
+    uint64_t x = state * UINT64_C(0x9e3779b97f4a7c15) + number * 8191U + (uint64_t)primes * 131071U;
     x = (x ^ (x >> 31)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 29)) * UINT64_C(0x94d049bb133111eb);
-    return (seed % 2 == 0 ? 0.1 : -0.9) + 1.7 * (double)(x >> 11) * 0x1p-53;
+    return (state % 2 == 0 ? 0.1 : -0.9) + 1.7 * (double)(x >> 11) * 0x1p-53;
 }
 
 void equations_report_growth(const equations *e, diags *errors) {

@@ -33,9 +33,10 @@ typedef struct line {
 static line row_of(int n, int i) { return (line){i * n, 1}; }
 static line column_of(int n, int i) { return (line){i, n}; }
 
-static void scale_line(double *m, int n, line of, double by) {
+static void scale_line(double *m, double *error, int n, line of, double by) {
     for (int k = 0; k < n; k++) {
         m[of.first + k * of.stride] *= by;
+        error[of.first + k * of.stride] *= by;
     }
 }
 
@@ -48,22 +49,16 @@ static bool has_positive_diagonal(const double *m, int n) {
     return true;
 }
 
-static double largest_of(const double *m, int n, line of) {
-    double largest = 0.0;
-    for (int k = 0; k < n; k++) {
-        largest = number_most(largest, fabs(m[of.first + k * of.stride]));
-    }
-    return largest;
-}
-
 /* Divides each row, then each column, by about the root of its largest entry. Does this PASSES times. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
             const line of = pass % 2 == 0 ? row_of(n, i) : column_of(n, i);
-            const double by = scale_for(largest_of(m, n, of));
-            scale_line(m, n, of, by);
-            scale_line(error, n, of, by);
+            double largest = 0.0;
+            for (int k = 0; k < n; k++) {
+                largest = number_most(largest, fabs(m[of.first + k * of.stride]));
+            }
+            scale_line(m, error, n, of, scale_for(largest));
         }
     }
 }
@@ -71,10 +66,8 @@ static void scale_general(double *m, double *error, int n) {
 static void scale_symmetric(double *m, double *error, int n) {
     for (int i = 0; i < n; i++) {
         const double by = scale_for(m[i * n + i]);
-        scale_line(m, n, row_of(n, i), by);
-        scale_line(m, n, column_of(n, i), by);
-        scale_line(error, n, row_of(n, i), by);
-        scale_line(error, n, column_of(n, i), by);
+        scale_line(m, error, n, row_of(n, i), by);
+        scale_line(m, error, n, column_of(n, i), by);
     }
 }
 
@@ -117,11 +110,11 @@ typedef struct generic_state {
 
 /* At TRY_START, symbols have their start values. At other states, only parameters and inputs have them. */
 static double generic_value(void *context, const symbol *s, int primes) {
-    const generic_state *state = context;
+    generic_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
         return instance_value(state->instance, s, primes);
     }
-    return equations_generic(state->seed, s, primes);
+    return equations_generic(&state->seed, s, primes);
 }
 
 static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
@@ -163,6 +156,7 @@ static int dependent_row(const equations *e) {
     return found;
 }
 
+/* The place of the equation in this row; of the mechanism for -1. */
 static place place_of_equation(const equations *e, int row) {
     const mechanism *m = e->instance->mechanism;
     for (int t = 0, at = 0; t < m->term_count; t++) {
@@ -185,21 +179,15 @@ static bool row_is_empty(const equations *e, int row) {
 
 static void report_singular_system(const equations *e, diags *errors) {
     const int row = dependent_row(e);
-    if (row >= 0 && row_is_empty(e, row)) {
-        diag_error(
-            errors, place_of_equation(e, row),
-            "a constraint between states: differentiate it until a highest derivative appears",
-            "the equations of '%s' cannot be solved for the highest derivatives: "
-            "this equation contains none",
-            e->instance->mechanism->name);
-    } else {
-        diag_error(
-            errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
-            "look for two equivalent equations, or for one without its highest derivative",
-            "the equations of '%s' cannot be solved for the highest derivatives: "
-            "this equation has the same combination of highest derivatives as the equations above it",
-            e->instance->mechanism->name);
-    }
+    const bool empty = row >= 0 && row_is_empty(e, row);
+    diag_error(
+        errors, place_of_equation(e, row),
+        empty ? "a constraint between states: differentiate it until a highest derivative appears"
+              : "look for two equivalent equations, or for one without its highest derivative",
+        "the equations of '%s' cannot be solved for the highest derivatives: this equation %s",
+        e->instance->mechanism->name,
+        empty ? "contains none"
+              : "has the same combination of highest derivatives as the equations above it");
 }
 
 /* Returns an inactive effect whose T contains the rate of `s`, or NULL. */
@@ -215,17 +203,6 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     return NULL;
 }
 
-/* Returns the number of tried states at which this term of the kinetic energy is negative. */
-static int times_negative(const equations *e, const term *t) {
-    const poly *value = poly_from_expr(e->algebra, t->value);
-    int negative = 0;
-    for (int try = 0; try < TRY_START; try++) {
-        generic_state state = {e->instance, (uint64_t)try};
-        negative += poly_evaluate(value, generic_value, &state) < 0.0 ? 1 : 0;
-    }
-    return negative;
-}
-
 /* *most: the largest number of tried states at which one term of T is negative. Returns this term; NULL for 0. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
@@ -233,8 +210,15 @@ static const term *negative_part(const equations *e, int *most) {
     *most = 0;
     for (int i = 0; i < of->term_count; i++) {
         const term *t = &of->terms[i];
-        const bool takes_part = t->kind == TERM_T && instance_has(e->instance, t->effect);
-        const int negative = takes_part ? times_negative(e, t) : 0;
+        if (t->kind != TERM_T || !instance_has(e->instance, t->effect)) {
+            continue;
+        }
+        const poly *value = poly_from_expr(e->algebra, t->value);
+        int negative = 0;
+        for (int try = 0; try < TRY_START; try++) {
+            generic_state state = {e->instance, (uint64_t)try};
+            negative += poly_evaluate(value, generic_value, &state) < 0.0;
+        }
         if (negative > *most) {
             found = t;
             *most = negative;

@@ -20,7 +20,7 @@ static bool is_in_waves(const mono *m, const symbol *sym, bool tangents) {
             return false;
         }
         const bool tangent = tangents && lower_is_tangent(x);
-        for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+        for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
             if (!(tangent ? whole_in_angle : lower_only_in_waves)(x->argument[j], sym)) {
                 return false;
             }
@@ -345,7 +345,7 @@ static int sines_inside(const poly *p) {
         for (int k = 0; k < m->count; k++) {
             const atom *x = m->factors[k].atom;
             const int own = lower_is_tangent(x);
-            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+            for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
                 here = own + sines_inside(x->argument[j]);
                 most = here > most ? here : most;
             }
@@ -402,7 +402,9 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Does the angle contain a fraction of a turn angle, such as half of it? */
+/* Does the angle contain a fraction of a turn angle, such as half of it? Only records have such angles. Their sines are
+ * evaluated directly. Because no other sine is computed from them, a record does not change the bits of other
+ * results. */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -412,20 +414,7 @@ static bool has_part(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Removes the angles that contain a fraction of a turn angle: only records have such angles. Their sines are evaluated
- * directly. Because no other sine is computed from them, a record does not change the bits of other results. */
-static int without_parts(const lowering *l, const poly **angles, int count) {
-    int kept = 0;
-    for (int i = 0; i < count; i++) {
-        if (!has_part(l, angles[i])) {
-            angles[kept++] = angles[i];
-        }
-    }
-    return kept;
-}
-
 static void waves_plan(lowering *l, const poly **angles, int count) {
-    count = without_parts(l, angles, count);
     for (int i = 1; i < count; i++) { /* a stable sort, smallest first */
         const poly *angle = angles[i];
         int j = i;
@@ -462,7 +451,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
                 made = rule_for(l, angles[i], &w);
             }
         }
-        append(l, made ? w : (wave){angles[i], WAVE_EVALUATED, -1, -1, -1, -1});
+        append(l, made ? w : (wave){.angle = angles[i], .rule = WAVE_EVALUATED});
     }
 }
 
@@ -525,18 +514,11 @@ static int wave_node(lowering *l, int i, trig which) {
     return node;
 }
 
-static int planned(lowering *l, const poly *angle) {
+/* The operation for the sine or cosine of `angle`. Without a planned identity, the core's function computes it. */
+static int wave_of(lowering *l, const poly *angle, trig which) {
     const int i = find(l, angle);
-    return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
-}
-
-/* The operation for the sine of `angle`. Without a planned identity, the core's sine computes it. */
-static int waves_sine(lowering *l, const poly *angle) {
-    return wave_node(l, planned(l, angle), TRIG_SIN);
-}
-
-static int waves_cosine(lowering *l, const poly *angle) {
-    return wave_node(l, planned(l, angle), TRIG_COS);
+    return wave_node(l, i >= 0 ? i : append(l, (wave){.angle = angle, .rule = WAVE_EVALUATED}),
+                     which);
 }
 
 /* === polys to operations ====================================================================== */
@@ -555,7 +537,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
     for (int i = 0; i < count; i++) {
         for (int j = 0; j < pieces[i].mono->count; j++) {
             const atom *x = pieces[i].mono->factors[j].atom;
-            for (int k = 0; k < 2 && x->kind != ATOM_SYMBOL && x->argument[k] != NULL; k++) {
+            for (int k = 0; k < 2 && x->argument[k] != NULL; k++) {
                 collect_angles(l, x->argument[k], list);
             }
             if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
@@ -566,11 +548,11 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
             continue;
         }
         collect_angles(l, pieces[i].angle, list);
-        bool known = false;
+        bool skipped = has_part(l, pieces[i].angle);
         for (int k = 0; k < list->count; k++) {
-            known = known || list->angles[k] == pieces[i].angle;
+            skipped = skipped || list->angles[k] == pieces[i].angle;
         }
-        if (!known) {
+        if (!skipped) {
             list->angles = alloc_more(list->angles, list->count + 1, sizeof *list->angles);
             list->angles[list->count++] = pieces[i].angle;
         }
@@ -590,9 +572,6 @@ void lower_plan(lowering *l, const poly *const *polys, int count) {
 void lower_done(lowering *l) {
     free(l->waves);
     free(l->uses);
-    l->waves = NULL;
-    l->uses = NULL;
-    l->wave_count = l->uses_room = 0;
 }
 
 /* A power with a larger whole exponent, which an int may not hold, is one operation, not products (op_list_power()). */
@@ -627,8 +606,8 @@ static int atom_node(lowering *l, const atom *x) {
     }
     /* a tangent without turn angles calls tan(), because a phase would round its argument to 1.5e-9 rad */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
-        const int s = waves_sine(l, x->argument[0]);
-        return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
+        const int s = wave_of(l, x->argument[0], TRIG_SIN);
+        return op_list_div(l->list, s, wave_of(l, x->argument[0], TRIG_COS));
     }
     const int first = lower(l, x->argument[0]);
     const int second = x->argument[1] == NULL ? -1 : lower(l, x->argument[1]);
@@ -812,10 +791,12 @@ int lower(lowering *l, const poly *p) {
             product_factor(l, &products[i], &pieces[i].mono->factors[k]);
         }
         if (pieces[i].sines > 0) {
-            lower_multiply(l, &products[i], waves_sine(l, pieces[i].angle), pieces[i].sines);
+            const int sine = wave_of(l, pieces[i].angle, TRIG_SIN);
+            lower_multiply(l, &products[i], sine, pieces[i].sines);
         }
         if (pieces[i].cosines > 0) {
-            lower_multiply(l, &products[i], waves_cosine(l, pieces[i].angle), pieces[i].cosines);
+            const int cosine = wave_of(l, pieces[i].angle, TRIG_COS);
+            lower_multiply(l, &products[i], cosine, pieces[i].cosines);
         }
     }
     const int result = lower_sum(l, products, count);

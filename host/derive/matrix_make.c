@@ -69,15 +69,11 @@ static bool step(const image *im, const op *o, const double_double *all, double_
     case OP_ADD: add(a, b, 1.0, columns, to); return true;
     case OP_SUB: add(a, b, -1.0, columns, to); return true;
     case OP_NEG: multiply(a, double_double_of(-1.0), columns, to); return true;
-    case OP_MUL:
-        if (is_constant(a, columns)) {
-            multiply(b, a[last], columns, to);
-        } else if (is_constant(b, columns)) {
-            multiply(a, b[last], columns, to);
-        } else {
-            return false;
-        }
-        return true;
+    case OP_MUL: {
+        const bool left = is_constant(a, columns);
+        multiply(left ? b : a, (left ? a : b)[last], columns, to);
+        return left || is_constant(b, columns);
+    }
     case OP_DIV:
         if (!is_constant(b, columns)) {
             return false;
@@ -146,7 +142,7 @@ static double degree_of(const poly *p) {
             const double exponent = m->factors[k].exponent;
             const bool whole = exponent > 0.0 && exponent == number_floor(exponent);
             double inside = x->kind == ATOM_SYMBOL && x->symbol->kind != SYM_PARAMETER ? 1.0 : 0.0;
-            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+            for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
                 inside = number_most(inside, degree_of(x->argument[j]));
             }
             const bool power = whole && (x->kind == ATOM_SYMBOL || x->kind == ATOM_GROUP);

@@ -64,15 +64,18 @@ static void solve_cramer(op_list *t, int n, const int *mass, const int *force, c
     free(swapped);
 }
 
-/* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
-static void substitute_back(op_list *t, int n, const int *mass, const int *force, const int *order,
-                            int at, int *solution) {
-    const int k = order[at];
-    int rest = force[k];
-    for (int i = at + 1; i < n; i++) {
-        rest = minus_product(t, rest, mass[k * n + order[i]], solution[order[i]]);
+/* Solves the triangular equations rows[0] ... rows[last], from the last on: x_k = (f_k - sum over later unknowns of
+ * m_kj x_j) / m_kk. */
+static void substitute_back(op_list *t, int n, const int *mass, const int *force, const int *rows,
+                            const int *columns, int last, int *solution) {
+    for (int at = last; at >= 0; at--) {
+        const int *row = &mass[rows[at] * n];
+        int rest = force[rows[at]];
+        for (int i = at + 1; i < n; i++) {
+            rest = minus_product(t, rest, row[columns[i]], solution[columns[i]]);
+        }
+        solution[columns[at]] = op_list_div(t, rest, row[columns[at]]);
     }
-    solution[k] = op_list_div(t, rest, mass[k * n + k]);
 }
 
 /* Eliminates in the order order[n]. The first `done` unknowns, eliminated symbolically, need only back substitution. */
@@ -100,23 +103,7 @@ static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const 
             force[i] = minus_product(t, force[i], part, force[k]);
         }
     }
-    for (; left >= 0; left--) {
-        substitute_back(t, n, mass, force, order, left, solution);
-    }
-}
-
-static double generic(void *context, const symbol *s, int primes) {
-    (void)context;
-    return equations_generic(0, s, primes);
-}
-
-/* Returns the values of p[count] at a generic state: zero there means zero by identity. */
-static double *sample(const poly *const *p, int count) {
-    double *value = alloc(count, sizeof *value);
-    for (int i = 0; i < count; i++) {
-        value[i] = poly_evaluate(p[i], generic, NULL);
-    }
-    return value;
+    substitute_back(t, n, mass, force, order, order, left, solution);
 }
 
 static void exchange(int *a, int *b) {
@@ -152,12 +139,18 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
     return best_constant;
 }
 
-/* Eliminates with the largest pivot at a generic state, where the matrix is value[n * n], and solves the last three
- * equations by Cramer's rule. If the determinant is not identically zero, neither is a divisor. */
-static void eliminate_general(op_list *t, int n, int *mass, int *force, double *value,
+/* Eliminates with the largest pivot at a generic state, and solves the last three equations by Cramer's rule. An entry
+ * of `of` that is zero at the generic state is zero by identity. If the determinant is not identically zero, neither is
+ * a divisor. */
+static void eliminate_general(op_list *t, int n, const poly *const *of, int *mass, int *force,
                               int *solution) {
     int *rows = alloc(2 * (int64_t)n, sizeof *rows);
     int *columns = rows + n;
+    double *value = alloc((int64_t)n * n, sizeof *value);
+    uint64_t seed = 0;
+    for (int i = 0; i < n * n; i++) {
+        value[i] = poly_evaluate(of[i], equations_generic, &seed);
+    }
     for (int i = 0; i < n; i++) {
         rows[i] = columns[i] = i;
     }
@@ -183,14 +176,9 @@ static void eliminate_general(op_list *t, int n, int *mass, int *force, double *
         }
         at++;
     }
-    for (at = at - 1; at >= 0; at--) {
-        int rest = force[rows[at]];
-        for (int j = at + 1; j < n; j++) {
-            rest = minus_product(t, rest, mass[rows[at] * n + columns[j]], solution[columns[j]]);
-        }
-        solution[columns[at]] = op_list_div(t, rest, mass[rows[at] * n + columns[at]]);
-    }
+    substitute_back(t, n, mass, force, rows, columns, at - 1, solution);
     free(rows);
+    free(value);
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
@@ -403,7 +391,6 @@ static double choose_scales(const linear_system *s, double *scale) {
         any_turning = any_turning || s->turning[i];
     }
     for (int i = 0; i < n; i++) {
-        scale[i] = 1.0;
         if (any_turning && !s->turning[i]) {
             continue;
         }
@@ -543,14 +530,6 @@ static void put_away(arranged *w, int k) {
     w->order[w->eliminated++] = k;
 }
 
-static bool off_hinges(const arranged *w, int k) {
-    bool off = true;
-    for (int h = 0; h < w->hinges; h++) {
-        off = off && poly_is_zero(w->across[h * (w->n + 1) + k]);
-    }
-    return off;
-}
-
 /* Eliminates all unknowns on hinges, in the arrangement's order. Returns false if there are none. */
 static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangement *how,
                              arranged *w) {
@@ -559,7 +538,11 @@ static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangeme
         const int k = how->order[i];
         const poly **across = w->across + w->hinges * (n + 1);
         double own;
-        if (off_hinges(w, k) &&
+        bool off = true; /* no earlier hinge's body moves k */
+        for (int h = 0; h < w->hinges; h++) {
+            off = off && poly_is_zero(w->across[h * (n + 1) + k]);
+        }
+        if (off &&
             hinge_eliminate(a, n, w->mass, w->force, w->gone, k, s->unknown[k], &own, across)) {
             w->inverse[w->hinges++] = 1.0 / own;
             put_away(w, k);
@@ -693,9 +676,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
         if (s->symmetric) {
             eliminate_symmetric(t, n, node, node + n * n, w.order, w.eliminated, solution);
         } else {
-            double *value = sample(w.mass, n * n);
-            eliminate_general(t, n, node, node + n * n, value, solution);
-            free(value);
+            eliminate_general(t, n, w.mass, node, node + n * n, solution);
         }
         for (int i = 0; i < n; i++) {
             solution[i] = op_list_mul(t, op_list_constant(t, w.scale[i]), solution[i]);
@@ -743,17 +724,6 @@ static bool next_order(int *order, int n) {
     return true;
 }
 
-static bool can_be_permuted(const linear_system *s) {
-    double size = 0.0;
-    for (int i = 0; i < s->n; i++) {
-        size += s->force[i]->size;
-        for (int j = 0; j < s->n; j++) {
-            size += s->mass[i * s->n + j]->size;
-        }
-    }
-    return s->n <= PERMUTED_MAX && size <= PERMUTED_SIZE_MAX;
-}
-
 typedef struct choice {
     arrangement how;
     int weight; /* -1: no arrangement was tried yet */
@@ -793,13 +763,6 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
     }
 }
 
-static void try_leads(const lowering *l, const linear_system *s, choice *best) {
-    arrangement how = best->how;
-    for (how.lead = 1; how.lead <= LEADS_MAX; how.lead++) {
-        try_it(l, s, &how, best);
-    }
-}
-
 void solve_highest(lowering *l, const linear_system *s, int *solution) {
     const int n = s->n;
     arrangement how = {.first = -1};
@@ -813,15 +776,23 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
             }
         }
     }
-    const bool permuted = can_be_permuted(s);
+    double size = 0.0;
+    for (int i = 0; i < n * n; i++) {
+        size += s->mass[i]->size;
+    }
+    for (int i = 0; i < n; i++) {
+        size += s->force[i]->size;
+    }
+    const bool permuted = n <= PERMUTED_MAX && size <= PERMUTED_SIZE_MAX;
     choice best = {how, -1};
     if (s->symmetric) {
         do {
             try_order(l, s, &how, permuted, &best);
         } while (permuted && next_order(how.order, n));
     }
-    if (s->sparing) {
-        try_leads(l, s, &best);
+    how = best.how;
+    for (how.lead = 1; s->sparing && how.lead <= LEADS_MAX; how.lead++) {
+        try_it(l, s, &how, &best);
     }
     enter(l, l->list, s, &best.how, solution);
 }

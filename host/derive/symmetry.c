@@ -109,28 +109,21 @@ static const poly *change_by(const equations *e, const poly *energy, int k) {
                     poly_mul(a, poly_derivative(a, energy, moved, 1), poly_symbol(a, with, 1)));
 }
 
-static const poly *angle_without_number(algebra *a, const poly *angle, double *number) {
-    *number = 0.0;
-    for (int i = 0; i < angle->count; i++) {
-        if (angle->terms[i].mono->count == 0 && angle->terms[i].mono->trig == TRIG_NONE) {
-            *number = angle->terms[i].coefficient;
-        }
-    }
-    return *number != 0.0 ? poly_sub(a, angle, poly_number(a, *number)) : angle;
-}
-
 /* Expands sines and cosines with a constant phase, because sin(theta + 0.5) and sin(theta) are not independent. */
 static const poly *without_phases(algebra *a, const poly *p) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
         double number = 0.0;
-        const poly *angle =
-            m->trig != TRIG_NONE ? angle_without_number(a, m->angle, &number) : NULL;
+        for (int k = 0; m->angle != NULL && k < m->angle->count; k++) {
+            const poly_term *t = &m->angle->terms[k];
+            number = t->mono->count == 0 && t->mono->trig == TRIG_NONE ? t->coefficient : number;
+        }
         if (number == 0.0) {
             sum = poly_add(a, sum, poly_of_term(a, p->terms[i].coefficient, m));
             continue;
         }
+        const poly *angle = poly_sub(a, m->angle, poly_number(a, number));
         const bool is_sine = m->trig == TRIG_SIN;
         const poly *same = is_sine ? poly_sin(a, angle) : poly_cos(a, angle);
         const poly *other = is_sine ? poly_cos(a, angle) : poly_sin(a, angle);
@@ -234,11 +227,6 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
     }
 }
 
-static double drawn_value(void *context, const symbol *s, int primes) {
-    const uint64_t *seed = context;
-    return equations_generic(*seed, s, primes);
-}
-
 /* Returns the number of motions that leave an energy unchanged at random states; -1 if no state has a finite value. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
@@ -252,7 +240,7 @@ static int count_by_values(const equations *e, const poly *const *change) {
         for (int draw = 0; draw < DRAWS && !good; draw++, seed++) {
             good = true;
             for (int k = 0; k < columns && good; k++) {
-                row[k] = poly_evaluate(change[k], drawn_value, &seed);
+                row[k] = poly_evaluate(change[k], equations_generic, &seed);
                 good = isfinite(row[k]);
             }
         }
