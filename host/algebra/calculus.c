@@ -103,7 +103,7 @@ bool poly_is_finite(const poly *p) {
         }
         for (int k = 0; k < m->count; k++) {
             const atom *x = m->factors[k].atom;
-            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+            for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
                 if (!poly_is_finite(x->argument[j])) {
                     return false;
                 }
@@ -215,10 +215,10 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
 
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns) {
-    const poly *sum = poly_number(a, 0.0);
     if (rows == 0) {
-        return poly_number(a, 1.0);
+        return a->one;
     }
+    const poly *sum = a->zero;
     const unsigned row = (unsigned)__builtin_ctz(rows);
     double sign = 1.0;
     for (unsigned c = 0; c < (unsigned)n; c++) {
@@ -244,11 +244,8 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
         }
         for (int j = 0; j < m->count; j++) {
             const atom *x = m->factors[j].atom;
-            if (x->kind == ATOM_SYMBOL) {
-                if (x->symbol == sym && (primes < 0 || x->primes == primes)) {
-                    return true;
-                }
-                continue;
+            if (x->symbol == sym && (primes < 0 || x->primes == primes)) {
+                return true;
             }
             for (int k = 0; k < 2 && x->argument[k] != NULL; k++) {
                 if (poly_contains(x->argument[k], sym, primes)) {
@@ -261,7 +258,7 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
 }
 
 typedef struct substitution {
-    poly_replacement *replace;
+    poly_replacement *replace; /* NULL: replaces nothing */
     void *context;
     double kept;       /* from this exponent on, whole powers of sums of positions stay powers */
     intern_table done; /* memo_pair of a poly or atom and NULL */
@@ -275,12 +272,12 @@ static const poly *substitute_atom(algebra *a, const atom *x, substitution *s) {
         return known;
     }
     const poly *inside[2] = {NULL, NULL};
-    for (int i = 0; i < 2 && x->kind != ATOM_SYMBOL && x->argument[i] != NULL; i++) {
+    for (int i = 0; i < 2 && x->argument[i] != NULL; i++) {
         inside[i] = substitute(a, x->argument[i], s);
     }
     switch (x->kind) {
     case ATOM_SYMBOL:
-        known = s->replace(s->context, a, x->symbol, x->primes);
+        known = s->replace != NULL ? s->replace(s->context, a, x->symbol, x->primes) : NULL;
         known = known == NULL ? poly_of_atom(a, x, 1.0) : known;
         break;
     case ATOM_CALL: known = poly_call(a, x->function, inside[0], inside[1]); break;
@@ -328,19 +325,11 @@ const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace
     return result;
 }
 
-static const poly *replace_none(void *context, algebra *a, const symbol *sym, int primes) {
-    (void)context;
-    (void)a;
-    (void)sym;
-    (void)primes;
-    return NULL;
-}
-
 const poly *poly_expanded(algebra *a, const poly *p) {
     if (!p->keeps_powers) {
         return p;
     }
-    substitution s = {replace_none, NULL, (double)INFINITY, {0}};
+    substitution s = {NULL, NULL, (double)INFINITY, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);
     return result;

@@ -10,8 +10,6 @@
 #include "host/base/hashing.h"
 #include "host/number/folding.h"
 
-static void algebra_work(algebra *a, size_t amount);
-
 /* === the order of the normal form ============================================================= */
 /* The order of atoms, products and sums depends only on their contents, so the form of an expression depends neither on
  * earlier work nor on the compiler. Equal objects have the same address, so a comparison skips shared parts. */
@@ -20,8 +18,7 @@ static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
 /* Maps a number to an integer of the same order. The order includes both zeros and NaN. */
 static uint64_t place_of(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
+    const uint64_t bits = number_bits(x);
     return bits >> 63 != 0 ? ~bits : bits | UINT64_C(1) << 63;
 }
 
@@ -55,7 +52,7 @@ static int atom_order(const atom *x, const atom *y) {
     return order;
 }
 
-/* The product without factors comes first: size_of_sum() relies on this. */
+/* The product without factors comes first: poly_power() relies on this. */
 static int mono_order(const mono *x, const mono *y) {
     if (x == y) {
         return 0;
@@ -149,6 +146,20 @@ static bool power_multiplies_out(const poly *base, double exponent, double kept)
 /* === sums of many polys ======================================================================= */
 /* Adding polys one by one would build and store every partial sum, so the terms are collected first. */
 
+/* Limit of the work of a derivation, in bytes: some half a minute. An arm of six joints of nonzero lengths needs
+ * 0.42e9. */
+#define WORK_MAX ((size_t)1 << 29)
+/* Processing one term counts as this many bytes of work. */
+#define WORK_OF_TERM 2U
+static void count_bytes(algebra *a, size_t bytes) {
+    a->work += bytes;
+    if (a->work > WORK_MAX) {
+        a->overflow = true;
+    }
+}
+
+static void count_terms(algebra *a, size_t terms) { count_bytes(a, terms * WORK_OF_TERM); }
+
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {
         s->room = s->room == 0 ? 64 : s->room * 2;
@@ -159,7 +170,7 @@ static void push(poly_sum *s, const mono *m, double coefficient) {
 }
 
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale) {
-    algebra_work(a, (size_t)p->count + 1);
+    count_terms(a, (size_t)p->count + 1);
     for (int i = 0; i < p->count && !a->overflow; i++) {
         push(s, p->terms[i].mono, folding_product(p->terms[i].coefficient, scale));
     }
@@ -192,15 +203,6 @@ static void collect(poly_sum *s) {
     s->count = kept;
 }
 
-/* Adds up `row` by itself, then adds it to `s`. `row` is then empty, and its memory can be reused. */
-static void sum_add_row(poly_sum *s, poly_sum *row) {
-    collect(row);
-    for (size_t i = 0; i < row->count; i++) {
-        push(s, row->items[i].mono, row->items[i].coefficient);
-    }
-    row->count = 0;
-}
-
 const poly *sum_close(algebra *a, poly_sum *s) {
     collect(s);
     poly *p = poly_scratch((int)s->count);
@@ -216,19 +218,8 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 
 /* === interning ================================================================================ */
 
-/* Limit of the work of a derivation, in bytes: some half a minute. An arm of six joints of nonzero lengths needs
- * 0.42e9. */
-#define WORK_MAX ((size_t)1 << 29)
-/* Processing one term counts as this many bytes of work. */
-#define WORK_OF_TERM 2U
 /* Work of making an object, in bytes: its size on a 64-bit host, so that the limit is the same on every host. */
 enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
-
-static uint64_t bits_of(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
 
 static void table_grow(intern_table *table) {
     const size_t size = table->size == 0 ? 1024 : table->size * 2;
@@ -261,19 +252,10 @@ static intern_slot *table_find(intern_table *table, uint64_t hash, const void *c
     return &table->slots[at];
 }
 
-static void count_bytes(algebra *a, size_t bytes) {
-    a->work += bytes;
-    if (a->work > WORK_MAX) {
-        a->overflow = true;
-    }
-}
-
 char *algebra_limit(const algebra *a) {
     return a->work > WORK_MAX ? alloc_words("more than %.0f MB of terms were made", 1e-6 * WORK_MAX)
                               : alloc_words("more than %.0f operands", POLY_SIZE_MAX);
 }
-
-static void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
 
 /* Returns the number of a new object of `bytes` bytes. Its slots in the hash table count as 48 further bytes. */
 static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
@@ -368,7 +350,7 @@ static bool mono_equal(const void *x, const void *y) {
     }
     for (int i = 0; i < left->count; i++) {
         if (left->factors[i].atom != right->factors[i].atom ||
-            bits_of(left->factors[i].exponent) != bits_of(right->factors[i].exponent)) {
+            number_bits(left->factors[i].exponent) != number_bits(right->factors[i].exponent)) {
             return false;
         }
     }
@@ -388,7 +370,7 @@ const mono *mono_intern(algebra *a, mono *candidate) {
                           power_multiplies_out(f->atom->argument[0], f->exponent, (double)INFINITY);
         candidate->keeps_powers = candidate->keeps_powers || f->atom->keeps_powers || kept;
         hash = hash_mix(hash_mix(hash, candidate->factors[i].atom->id),
-                        bits_of(candidate->factors[i].exponent));
+                        number_bits(candidate->factors[i].exponent));
         candidate->symbols |= candidate->factors[i].atom->symbols;
         candidate->size += candidate->factors[i].atom->size;
     }
@@ -428,7 +410,7 @@ static bool poly_equal(const void *x, const void *y) {
     }
     for (int i = 0; i < left->count; i++) {
         if (left->terms[i].mono != right->terms[i].mono ||
-            bits_of(left->terms[i].coefficient) != bits_of(right->terms[i].coefficient)) {
+            number_bits(left->terms[i].coefficient) != number_bits(right->terms[i].coefficient)) {
             return false;
         }
     }
@@ -443,7 +425,7 @@ const poly *poly_intern(algebra *a, poly *candidate) {
     for (int i = 0; i < candidate->count; i++) {
         candidate->keeps_powers = candidate->keeps_powers || candidate->terms[i].mono->keeps_powers;
         hash = hash_mix(hash_mix(hash, candidate->terms[i].mono->id),
-                        bits_of(candidate->terms[i].coefficient));
+                        number_bits(candidate->terms[i].coefficient));
         candidate->symbols |= candidate->terms[i].mono->symbols;
         candidate->size += candidate->terms[i].mono->size;
     }
@@ -554,7 +536,7 @@ const poly *poly_scale(algebra *a, const poly *p, double scale) {
 
 const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
                              double by) {
-    algebra_work(a, (size_t)p->count);
+    count_terms(a, (size_t)p->count);
     poly *changed = poly_scratch(p->count);
     /* the terms stay sorted, because only their numbers change */
     for (int i = 0; i < p->count; i++) {
@@ -684,7 +666,11 @@ static const poly *product_of(algebra *a, const poly *left, const poly *right) {
             sum_add(a, &row, p,
                     folding_product(left->terms[i].coefficient, right->terms[j].coefficient));
         }
-        sum_add_row(&sum, &row);
+        collect(&row); /* each row is added up by itself */
+        for (size_t k = 0; k < row.count; k++) {
+            push(&sum, row.items[k].mono, row.items[k].coefficient);
+        }
+        row.count = 0;
     }
     free(row.items);
     return sum_close(a, &sum);
@@ -760,14 +746,6 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-/* Returns a coefficient of p: sums that differ only by a factor are equal after division by it. In a positive whole
- * power it is not the constant term, so that x - b has one form for a symbol b and for a number b. */
-static double size_of_sum(const poly *p, double exponent) {
-    const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
-    return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
-                                                                     : p->terms[0].coefficient;
-}
-
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept) {
     double value;
     if (exponent == 0.0) {
@@ -789,9 +767,13 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* In a fractional power, the sign of `size` stays inside. */
-    const double size = size_of_sum(base, exponent);
-    const double outside = exponent_is_whole(exponent) ? size : fabs(size);
+    /* Sums that differ only by a factor are equal after division by a coefficient. In a positive whole power it is not
+     * the constant term, so that x - b has one form for a symbol b and for a number b. In a fractional power, its sign
+     * stays inside. */
+    const bool whole = exponent_is_whole(exponent);
+    const bool constant = base->terms[0].mono->count == 0 && base->terms[0].mono->trig == TRIG_NONE;
+    const double size = base->terms[constant && whole && exponent > 0.0 ? 1 : 0].coefficient;
+    const double outside = whole ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent),
                       number_power(outside, exponent));

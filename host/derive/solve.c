@@ -538,7 +538,7 @@ static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangeme
         const int k = how->order[i];
         const poly **across = w->across + w->hinges * (n + 1);
         double own;
-        bool off = true; /* no earlier hinge's body moves k */
+        bool off = true; /* has row k no term of an earlier hinge? */
         for (int h = 0; h < w->hinges; h++) {
             off = off && poly_is_zero(w->across[h * (n + 1) + k]);
         }

@@ -131,41 +131,32 @@ typedef struct table_functions {
     const int *function; /* [tables] operations */
 } table_functions;
 
-/* Knots form a ring, and `cells` is a power of two. */
-static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
-
-static double second_difference(const double *of, int n, int i) {
-    return (knot(of, n, i - 1) + knot(of, n, i + 1)) - 2.0 * of[i];
-}
-
-static double fourth_difference(const double *of, int n, int i) {
-    return (knot(of, n, i - 2) + knot(of, n, i + 2)) -
-           4.0 * (knot(of, n, i - 1) + knot(of, n, i + 1)) + 6.0 * of[i];
+/* The number at knot `at`, corrected. Knots form a ring, and `cells` is a power of two. */
+static double corrected(const double *of, int cells, int at, int terms) {
+    const int last = cells - 1;
+    const double here = of[at & last];
+    const double beside = of[(at - 1) & last] + of[(at + 1) & last];
+    return terms == WH_TABLE_LINEAR
+               ? here - (beside - 2.0 * here) / 12.0
+               : here + ((of[(at - 2) & last] + of[(at + 2) & last]) - 4.0 * beside + 6.0 * here) /
+                            720.0;
 }
 
 /* Writes cell i, between knots i and i + 1. */
-static void write_linear(const double *value, int n, int i, double *number) {
-    const double left = value[i] - second_difference(value, n, i) / 12.0;
-    const int next = (i + 1) & (n - 1);
-    const double right = value[next] - second_difference(value, n, next) / 12.0;
+static void write_cell(const double *value, const double *slope, int cells, int i, int terms,
+                       double *number) {
+    const double left = corrected(value, cells, i, terms);
+    const double right = corrected(value, cells, i + 1, terms);
     number[0] = 0.5 * (left + right);
     number[1] = right - left;
-}
-
-static void write_cubic(const double *value, const double *slope, int n, int i, double *number) {
-    double knots[2];
-    double slopes[2];
-    for (int k = 0; k < 2; k++) {
-        const int at = (i + k) & (n - 1);
-        knots[k] = value[at] + fourth_difference(value, n, at) / 720.0;
-        slopes[k] = slope[at] + fourth_difference(slope, n, at) / 720.0;
+    if (terms == WH_TABLE_CUBIC) {
+        const double slope_left = corrected(slope, cells, i, terms);
+        const double slope_right = corrected(slope, cells, i + 1, terms);
+        number[2] = 0.5 * (slope_right - slope_left);
+        number[3] = (slope_left + slope_right) - 2.0 * number[1];
+        number[0] -= 0.25 * number[2];
+        number[1] -= 0.25 * number[3];
     }
-    const double rise = knots[1] - knots[0];
-    const double both = slopes[0] + slopes[1];
-    number[2] = 0.5 * (slopes[1] - slopes[0]);
-    number[3] = both - 2.0 * rise;
-    number[0] = 0.5 * (knots[0] + knots[1]) - 0.25 * number[2];
-    number[1] = rise - 0.25 * number[3];
 }
 
 /* Is table k, to the last bit, an even function of the angle? If `odd`: an odd function? */
@@ -182,14 +173,6 @@ static bool mirrors(const op_list_tables *of, int k, bool odd) {
         }
     }
     return true;
-}
-
-static void find_mirrors(op_list_tables *of) {
-    of->folds = true;
-    for (int k = 0; k < of->count; k++) {
-        of->odd[k] = mirrors(of, k, true);
-        of->folds = of->folds && (of->odd[k] || mirrors(of, k, false));
-    }
 }
 
 /* Finds the largest errors at TRIED points of each cell, including the middle and the knots. */
@@ -232,18 +215,18 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < into->count; k++) {
             double *number = &into->number[(i * into->count + k) * into->terms];
-            if (into->terms == WH_TABLE_LINEAR) {
-                write_linear(&value[k * n], n, i, number);
-            } else {
-                write_cubic(&value[k * n], &slope[k * n], n, i, number);
-            }
+            write_cell(&value[k * n], &slope[k * n], n, i, into->terms, number);
             for (int power = 0; power < into->terms; power++) {
                 number[power] =
                     number[power] == 0.0 ? 0.0 : number[power]; /* never a negative zero */
             }
         }
     }
-    find_mirrors(into);
+    into->folds = true;
+    for (int k = 0; k < into->count; k++) {
+        into->odd[k] = mirrors(into, k, true);
+        into->folds = into->folds && (into->odd[k] || mirrors(into, k, false));
+    }
     set_errors(f, into);
     free(all);
     free(value);
@@ -315,9 +298,14 @@ static void enter(collecting *c, product_sum *sum, const unsigned char *power, i
     sum->product[sum->count++] = (term_product){power, coefficient};
 }
 
-static product_sum of_angles(collecting *c, int coefficient) {
+/* The product of a coefficient and symbol number `of` (-1: none). */
+static product_sum single(collecting *c, int of, int coefficient) {
     product_sum sum = {NULL, 0};
-    enter(c, &sum, powers_new(c->made), coefficient);
+    unsigned char *power = powers_new(c->made);
+    if (of >= 0) {
+        power[of] = 1;
+    }
+    enter(c, &sum, power, coefficient);
     return sum;
 }
 
@@ -331,14 +319,6 @@ static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
                    : sum.count > 0 ? sum.product[0].coefficient
                                    : op_list_constant(c->made->coefficients, 0.0);
     return alone;
-}
-
-static product_sum factor_symbol(collecting *c, int i) {
-    product_sum sum = {NULL, 0};
-    unsigned char *power = powers_new(c->made);
-    power[c->number[i]] = 1;
-    enter(c, &sum, power, op_list_constant(c->made->coefficients, 1.0));
-    return sum;
 }
 
 static product_sum added(collecting *c, product_sum x, product_sum y, int sign) {
@@ -410,9 +390,10 @@ static product_sum function_of(collecting *c, const op *o) {
                "leave out --tables: a table would smooth the kink", -1);
         return (product_sum){NULL, 0};
     }
-    return of_angles(c, o->code == OP_CALL  ? op_list_call(t, o->function, a, b)
-                        : o->code == OP_POW ? op_list_pow(t, a, b)
-                                            : op_list_unary(t, o->code, a));
+    return single(c, -1,
+                  o->code == OP_CALL  ? op_list_call(t, o->function, a, b)
+                  : o->code == OP_POW ? op_list_pow(t, a, b)
+                                      : op_list_unary(t, o->code, a));
 }
 
 static product_sum wave_of(collecting *c, const op *o) {
@@ -434,17 +415,17 @@ static product_sum wave_of(collecting *c, const op *o) {
     }
     const int copy = op_list_phase(t, multiple, phase->value, -1);
     free(multiple);
-    return of_angles(c, op_list_leaf(t, o->code, copy));
+    return single(c, -1, op_list_leaf(t, o->code, copy));
 }
 
 static product_sum sum_of(collecting *c, int i) {
     const op *o = &c->list->ops[i];
     const product_sum none = {NULL, 0};
     switch (o->code) {
-    case OP_CONSTANT: return of_angles(c, op_list_constant(c->made->coefficients, o->value));
+    case OP_CONSTANT: return single(c, -1, op_list_constant(c->made->coefficients, o->value));
     case OP_LINEAR:
     case OP_RATE:
-    case OP_INPUT: return factor_symbol(c, i);
+    case OP_INPUT: return single(c, c->number[i], op_list_constant(c->made->coefficients, 1.0));
     case OP_PHASE: return none;
     case OP_SIN:
     case OP_COS: return wave_of(c, o);
@@ -621,14 +602,6 @@ static void try_angles(tabling *t) {
     free(span);
 }
 
-static int peak_of(const coefficient *c) {
-    int at = 0;
-    for (int s = 1; s < TRIES; s++) {
-        at = fabs(c->value[s]) > fabs(c->value[at]) ? s : at;
-    }
-    return at;
-}
-
 static bool is_constant(const coefficient *c) {
     for (int s = 0; s < TRIES; s++) {
         if (!(fabs(c->value[s] - c->value[0]) <= ALIKE * c->size)) {
@@ -657,7 +630,10 @@ static void sort_out(tabling *t) {
     int *first = alloc(t->count, sizeof *first); /* index of the first coefficient of each table */
     for (int k = 0; k < t->count; k++) {
         coefficient *c = &t->coefficient[k];
-        const int peak = peak_of(c);
+        int peak = 0;
+        for (int s = 1; s < TRIES; s++) {
+            peak = fabs(c->value[s]) > fabs(c->value[peak]) ? s : peak;
+        }
         c->kind = IS_TABLE;
         c->table = -1;
         if (fabs(c->value[peak]) <= ALIKE * c->size) {
@@ -729,18 +705,6 @@ static op_list *write_list(const tabling *t, const op_list *list, image_tables f
     return made;
 }
 
-/* Returns the coefficients' list as the list of the tables' exact functions. */
-static op_list *take_exact(tabling *t) {
-    op_list *exact = t->from->coefficients;
-    t->from->coefficients = NULL;
-    free(exact->result);
-    exact->result = t->table;
-    exact->results = t->tables;
-    t->table = NULL;
-    op_list_prune(exact);
-    return exact;
-}
-
 static void take_coefficients(tabling *t) {
     for (int i = 0; i < t->from->results; i++) {
         t->count += t->from->result[i].count;
@@ -774,7 +738,14 @@ static op_list *make(tabling *t, const op_list *list, image_tables form, int bit
         return NULL;
     }
     op_list *made = write_list(t, list, form, bits);
-    *exact = take_exact(t);
+    /* the coefficients' list becomes the list of the tables' exact functions */
+    *exact = t->from->coefficients;
+    t->from->coefficients = NULL;
+    free((*exact)->result);
+    (*exact)->result = t->table;
+    (*exact)->results = t->tables;
+    t->table = NULL;
+    op_list_prune(*exact);
     return made;
 }
 

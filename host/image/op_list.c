@@ -31,16 +31,12 @@ void op_list_free(op_list *t) {
     free(t);
 }
 
+/* op_row.values by kind */
+enum { VALUES_CONSTANT = 0, VALUES_LEAF = 0, VALUES_PHASE = 0, VALUES_CELL = 0 };
+enum { VALUES_WAVE = 1, VALUES_UNARY = 1, VALUES_LOOKUP = 1 };
+enum { VALUES_BINARY = 2, VALUES_CALL = 2 };
+
 const op_row op_rows[OPS] = {
-#define VALUES_CONSTANT 0
-#define VALUES_LEAF 0
-#define VALUES_PHASE 0
-#define VALUES_WAVE 1
-#define VALUES_UNARY 1
-#define VALUES_BINARY 2
-#define VALUES_CALL 2
-#define VALUES_CELL 0
-#define VALUES_LOOKUP 1
 #define ROW(id, kind, cost, c, octave, ...) \
     [OP_##id] = {OP_IS_##kind, OP_COSTS_##cost, VALUES_##kind, c, octave},
     OP_ROWS(ROW)
@@ -71,17 +67,14 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t op_list_op_hash(const op_list *t, const op *o) {
-    uint64_t bits;
-    memcpy(&bits, &o->value, sizeof bits);
     const uint64_t function = o->code == OP_CALL ? (uint64_t)o->function : HASHED_NO_FUNCTION;
-    uint64_t hash = mix(mix((uint64_t)o->code, function), bits);
+    uint64_t hash = mix(mix((uint64_t)o->code, function), number_bits(o->value));
     hash = mix(mix(hash, (uint64_t)(unsigned)o->a), (uint64_t)(unsigned)o->b);
     for (int i = 0; i < t->angles && o->turns != NULL; i++) {
         hash = mix(hash, (uint64_t)(unsigned)o->turns[i]);
     }
     for (int i = 0; i < t->angles && o->parts != NULL; i++) {
-        memcpy(&bits, &o->parts[i], sizeof bits);
-        hash = mix(hash, bits);
+        hash = mix(hash, number_bits(o->parts[i]));
     }
     return hash ^ (hash >> 31);
 }
@@ -93,7 +86,7 @@ static bool same_array(const op_list *t, const void *x, const void *y, size_t si
 
 static bool op_equal(const op_list *t, const op *x, const op *y) {
     return x->code == y->code && x->function == y->function && x->a == y->a && x->b == y->b &&
-           memcmp(&x->value, &y->value, sizeof x->value) == 0 &&
+           number_bits(x->value) == number_bits(y->value) &&
            same_array(t, x->turns, y->turns, sizeof *x->turns) &&
            same_array(t, x->parts, y->parts, sizeof *x->parts);
 }
@@ -112,22 +105,27 @@ void op_list_reindex(op_list *t) {
     }
 }
 
+/* Returns the place in index[] of an equal operation, or the free place for a new one. */
+static size_t place_of(const op_list *t, const op *o) {
+    size_t at = (size_t)(op_list_op_hash(t, o) % (uint64_t)t->index_size);
+    while (t->index[at] >= 0 && !op_equal(t, &t->ops[t->index[at]], o)) {
+        at = (at + 1) % (size_t)t->index_size;
+    }
+    return at;
+}
+
 static int enter(op_list *t, op o) {
     if (t->count == t->room) {
         t->room = t->room == 0 ? 128 : t->room * 2;
         t->ops = alloc_more(t->ops, t->room, sizeof *t->ops);
         op_list_reindex(t);
     }
-    size_t at = (size_t)(op_list_op_hash(t, &o) % (uint64_t)t->index_size);
-    while (t->index[at] >= 0) {
-        if (op_equal(t, &t->ops[t->index[at]], &o)) {
-            return t->index[at];
-        }
-        at = (at + 1) % (size_t)t->index_size;
+    int *number = &t->index[place_of(t, &o)];
+    if (*number < 0) {
+        t->ops[t->count] = o;
+        *number = t->count++;
     }
-    t->index[at] = t->count;
-    t->ops[t->count] = o;
-    return t->count++;
+    return *number;
 }
 
 int op_list_find_binary(const op_list *t, op_code code, int a, int b) {
@@ -137,11 +135,7 @@ int op_list_find_binary(const op_list *t, op_code code, int a, int b) {
     const bool swapped = fixed_a != fixed_b ? fixed_b : (code == OP_ADD || code == OP_MUL) && a > b;
     const op o = {
         .code = code, .function = FUNCTION_NONE, .a = swapped ? b : a, .b = swapped ? a : b};
-    size_t at = (size_t)(op_list_op_hash(t, &o) % (uint64_t)t->index_size);
-    while (t->index[at] >= 0 && !op_equal(t, &t->ops[t->index[at]], &o)) {
-        at = (at + 1) % (size_t)t->index_size;
-    }
-    return t->index[at];
+    return t->index[place_of(t, &o)];
 }
 
 static int enter_op(op_list *t, op_code code, int a, int b) {
@@ -160,10 +154,6 @@ bool op_list_is_constant(const op_list *t, int a, double *value) {
     return true;
 }
 
-static bool is_value(const op_list *t, int a, double value) {
-    return t->ops[a].code == OP_CONSTANT && t->ops[a].value == value;
-}
-
 int op_list_constant(op_list *t, double value) {
     return enter_value(t, OP_CONSTANT, -1, value == 0.0 ? 0.0 : value); /* no negative zero */
 }
@@ -178,22 +168,18 @@ bool op_list_is_whole(double multiple) {
 
 /* Multiples that are not whole numbers are stored in `parts`. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians) {
+    const size_t angles = (size_t)t->angles;
     int *turns = NULL;
     double *parts = NULL;
     for (int i = 0; i < t->angles && multiple != NULL; i++) {
-        const bool whole = op_list_is_whole(multiple[i]);
         if (multiple[i] == 0.0) {
             continue;
         }
-        if (whole && turns == NULL) {
-            turns = arena_alloc(t->arena, (size_t)t->angles * sizeof *turns);
-        }
-        if (!whole && parts == NULL) {
-            parts = arena_alloc(t->arena, (size_t)t->angles * sizeof *parts);
-        }
-        if (whole) {
+        if (op_list_is_whole(multiple[i])) {
+            turns = turns != NULL ? turns : arena_alloc(t->arena, angles * sizeof *turns);
             turns[i] = (int)multiple[i];
         } else {
+            parts = parts != NULL ? parts : arena_alloc(t->arena, angles * sizeof *parts);
             parts[i] = multiple[i];
         }
     }
@@ -349,7 +335,7 @@ int op_list_div(op_list *t, int a, int b) {
         return op_list_is_constant(t, a, &x) ? op_list_constant(t, x / y)
                                              : op_list_mul(t, op_list_constant(t, 1.0 / y), a);
     }
-    if (is_value(t, a, 0.0)) {
+    if (op_list_is_constant(t, a, &x) && x == 0.0) {
         return a;
     }
     if (t->ops[b].code == OP_NEG) {

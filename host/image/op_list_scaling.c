@@ -8,8 +8,6 @@
 #include "host/base/alloc.h"
 #include "host/number/gauss.h"
 
-static bool op_list_is_raw(const op *o);
-
 /* === which operations may be multiplied together ============================================== */
 /* A scaling multiplies each operation by a power of one factor x. The operands of a sum need equal exponents; a product
  * has the sum of its operands' exponents; a constant accepts any exponent; a result has exponent 0. The scalings are
@@ -30,21 +28,21 @@ static matrix matrix_new(int rows, int columns) {
 
 static double *row_of(const matrix *m, int row) { return m->at + (size_t)row * (size_t)m->columns; }
 
-/* Returns the vectors v with m v = 0, as rows, and overwrites m. */
-static matrix kernel_of(const matrix *m) {
-    int *lead = alloc((int64_t)m->rows + 1, sizeof *lead);
-    bool *leads = alloc((int64_t)m->columns + 1, sizeof *leads);
-    const int rank = gauss_reduce(m->at, m->rows, m->columns, m->columns, false, NOTHING, lead);
-    matrix kernel = matrix_new(m->columns - rank, m->columns);
+/* Returns the vectors v with m v = 0, as rows, and frees m. */
+static matrix kernel_of(matrix m) {
+    int *lead = alloc((int64_t)m.rows + 1, sizeof *lead);
+    bool *leads = alloc((int64_t)m.columns + 1, sizeof *leads);
+    const int rank = gauss_reduce(m.at, m.rows, m.columns, m.columns, false, NOTHING, lead);
+    matrix kernel = matrix_new(m.columns - rank, m.columns);
     int made = 0;
     for (int r = 0; r < rank; r++) {
         leads[lead[r]] = true;
     }
-    for (int c = 0; c < m->columns; c++) {
+    for (int c = 0; c < m.columns; c++) {
         if (!leads[c]) {
             row_of(&kernel, made)[c] = 1.0;
             for (int r = 0; r < rank; r++) {
-                const double part = -row_of(m, r)[c] / row_of(m, r)[lead[r]];
+                const double part = -row_of(&m, r)[c] / row_of(&m, r)[lead[r]];
                 row_of(&kernel, made)[lead[r]] = fabs(part) < NOTHING ? 0.0 : part;
             }
             made++;
@@ -52,10 +50,27 @@ static matrix kernel_of(const matrix *m) {
     }
     free(lead);
     free(leads);
+    free(m.at);
     return kernel;
 }
 
-/* The unknowns: an exponent for each operation, and one for each operand that is a raw value (op_list_is_raw()),
+/* Multiplying a leaf, a sine or a function costs a product: its value is raw. */
+static bool is_raw(const op *o) {
+    switch (op_rows[o->code].kind) {
+    case OP_IS_LEAF:
+    case OP_IS_WAVE:
+    case OP_IS_LOOKUP:
+    case OP_IS_CALL: return true;
+    case OP_IS_CONSTANT:
+    case OP_IS_PHASE:
+    case OP_IS_CELL:
+    case OP_IS_UNARY:
+    case OP_IS_BINARY: break;
+    }
+    return o->code == OP_SIGN || o->code == OP_POW;
+}
+
+/* The unknowns: an exponent for each operation, and one for each operand that is a raw value (is_raw()),
  * because each use of a raw value may have its own factor. */
 typedef struct unknowns {
     const op_list *of;
@@ -80,9 +95,9 @@ static unknowns unknowns_of(const op_list *t) {
                   alloc(3 * (int64_t)t->count + 1, sizeof(int)), t->count};
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
-        const bool has = !op_list_is_raw(o) && o->code != OP_CONSTANT && o->code != OP_PHASE;
+        const bool has = !is_raw(o) && o->code != OP_CONSTANT && o->code != OP_PHASE;
         for (int which = 0; has && !absorbs(t, o) && which < op_rows[o->code].values; which++) {
-            if (op_list_is_raw(&t->ops[operand_of(o, which)])) {
+            if (is_raw(&t->ops[operand_of(o, which)])) {
                 u.place[u.columns] = 2 * i + which;
                 u.column[2 * i + which] = u.columns++;
             }
@@ -140,9 +155,7 @@ static matrix all_freedoms(const unknowns *u) {
     for (int i = 0; i < t->results; i++) {
         equation(u, &m, 1.0, t->result[i], 0.0, 0.0);
     }
-    const matrix kernel = kernel_of(&m);
-    free(m.at);
-    return kernel;
+    return kernel_of(m);
 }
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
@@ -211,8 +224,7 @@ static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
 
 static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c,
                          op_list_freedoms *f) {
-    const matrix m = limits_of(u, all, c);
-    const matrix shares = kernel_of(&m);
+    const matrix shares = kernel_of(limits_of(u, all, c));
     double *e = alloc((int64_t)u->columns + 1, sizeof *e);
     for (int s = 0; s < shares.rows; s++) {
         for (int i = 0; i < u->columns; i++) {
@@ -228,7 +240,6 @@ static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c,
     }
     free(e);
     free(shares.at);
-    free(m.at);
 }
 
 /* Adds to `c` the uses of operation `raw` whose bits are set in `which`. */
@@ -260,14 +271,14 @@ op_list_freedoms op_list_freedoms_of(const op_list *t) {
     const chosen none = {.count = 0};
     add_freedoms(&u, &all, &none, &f);
     for (int i = 0; i < t->count && all.rows > 0; i++) {
-        const int places = op_list_is_raw(&t->ops[i]) ? places_of(&u, i) : 0;
+        const int places = is_raw(&t->ops[i]) ? places_of(&u, i) : 0;
         const unsigned subsets = 1U << (places < SUBSETS_OF ? places : SUBSETS_OF);
         for (unsigned which = 1; which < subsets; which++) {
             const chosen one = choose(&u, none, i, which);
             add_freedoms(&u, &all, &one, &f);
         }
         for (int k = 0; k < i && places > 0; k++) {
-            if (op_list_is_raw(&t->ops[k]) && places_of(&u, k) > 0) {
+            if (is_raw(&t->ops[k]) && places_of(&u, k) > 0) {
                 const chosen both = choose(&u, choose(&u, none, k, ~0U), i, ~0U);
                 add_freedoms(&u, &all, &both, &f);
             }
@@ -279,12 +290,6 @@ op_list_freedoms op_list_freedoms_of(const op_list *t) {
     return f;
 }
 
-void op_list_freedoms_free(op_list_freedoms *f) {
-    free(f->exponent);
-    f->exponent = NULL;
-    f->count = 0;
-}
-
 /* === a list with its operations multiplied by numbers, and the same results =================== */
 
 typedef struct multiplied {
@@ -294,22 +299,6 @@ typedef struct multiplied {
     int *
         made; /* [from->count] the operation in `to` for each of `from`; raw values are not multiplied */
 } multiplied;
-
-/* Multiplying a leaf, a sine or a function costs a product: its value is raw. */
-static bool op_list_is_raw(const op *o) {
-    switch (op_rows[o->code].kind) {
-    case OP_IS_LEAF:
-    case OP_IS_WAVE:
-    case OP_IS_LOOKUP:
-    case OP_IS_CALL: return true;
-    case OP_IS_CONSTANT:
-    case OP_IS_PHASE:
-    case OP_IS_CELL:
-    case OP_IS_UNARY:
-    case OP_IS_BINARY: break;
-    }
-    return o->code == OP_SIGN || o->code == OP_POW;
-}
 
 /* Enters a constant. A value that differs from a float only by double's round-off becomes that float. */
 static int constant(op_list *t, double value) {
@@ -326,7 +315,7 @@ static int taken(const multiplied *m, int i, double times) {
     if (o->code == OP_MUL && op_list_is_constant(m->from, o->a, &number)) {
         return taken(m, o->b, number * times);
     }
-    const double has = op_list_is_raw(o) ? 1.0 : m->times[i];
+    const double has = is_raw(o) ? 1.0 : m->times[i];
     return op_list_mul(m->to, constant(m->to, times / has), m->made[i]);
 }
 
@@ -344,9 +333,9 @@ static int make_phase(const multiplied *m, const op *o) {
 /* The factor of an operand. Each use of a raw value has its own factor. */
 static double times_of(const multiplied *m, int i, int which) {
     const op *o = &m->from->ops[i];
-    const int operand = which == 0 ? o->a : o->b;
-    return op_list_is_raw(&m->from->ops[operand]) ? m->times[m->from->count + 2 * i + which]
-                                                  : m->times[operand];
+    const int operand = operand_of(o, which);
+    return is_raw(&m->from->ops[operand]) ? m->times[m->from->count + 2 * i + which]
+                                          : m->times[operand];
 }
 
 /* Enters operation i, a product or quotient. A new constant corrects the factor of the result. C does not fix the order
@@ -596,14 +585,18 @@ static bool is_better(const scaling_search *s, double bias, int operations) {
            (bias <= s->bias && operations < s->operations);
 }
 
+static op_list *scaled_by(scaling_search *s, const double *exponent, double x) {
+    for (int i = 0; i < 3 * s->from->count; i++) {
+        s->times[i] = power(x, exponent[i]);
+    }
+    return op_list_multiplied(s->from, s->times);
+}
+
 static void try_number(scaling_search *s, const double *exponent, double x) {
     if (s->tried >= PATIENCE) {
         return;
     }
-    for (int i = 0; i < 3 * s->from->count; i++) {
-        s->times[i] = power(x, exponent[i]);
-    }
-    op_list *made = op_list_multiplied(s->from, s->times);
+    op_list *made = scaled_by(s, exponent, x);
     s->tried += made->count;
     const int operations = op_list_operations(made);
     if (operations <= s->most && op_list_not_finite(made) < 0) {
@@ -644,7 +637,7 @@ static void try_vanishing(scaling_search *s, const double *exponent) {
     for (int i = 0; i < s->from->count && tried < VANISHING; i++) {
         const op *o = &s->from->ops[i];
         if (o->code == OP_MUL && op_list_is_constant(s->from, o->a, &number)) {
-            const double factor = op_list_is_raw(&s->from->ops[o->b]) ? 0.0 : exponent[o->b];
+            const double factor = is_raw(&s->from->ops[o->b]) ? 0.0 : exponent[o->b];
             const double e = factor - exponent[i];
             if (e != 0.0) {
                 try_number(s, exponent, number_power(fabs(number), 1.0 / e));
@@ -661,17 +654,6 @@ static void try_reals(scaling_search *s, const double *exponent) {
     }
 }
 
-/* Does an arbitrary factor, which turns no constant into one, cost an acceptable number of operations? */
-static bool affordable(const scaling_search *s, const double *exponent) {
-    for (int i = 0; i < 3 * s->from->count; i++) {
-        s->times[i] = power(1.2345678901, exponent[i]);
-    }
-    op_list *made = op_list_multiplied(s->from, s->times);
-    const bool can = op_list_operations(made) <= s->most;
-    op_list_free(made);
-    return can;
-}
-
 /* A round may end early, so simple numbers are tried for every freedom before others. */
 static void search_round(scaling_search *s) {
     op_list_freedoms f = op_list_freedoms_of(s->from);
@@ -682,7 +664,10 @@ static void search_round(scaling_search *s) {
             const double *exponent = f.exponent + (size_t)k * (size_t)f.length;
             if (pass == 0) {
                 try_vanishing(s, exponent);
-                can[k] = affordable(s, exponent);
+                /* does an arbitrary factor, which turns no constant into one, cost too many operations? */
+                op_list *made = scaled_by(s, exponent, 1.2345678901);
+                can[k] = op_list_operations(made) <= s->most;
+                op_list_free(made);
             }
             if (can[k]) {
                 (pass == 0 ? try_primes : try_reals)(s, exponent);
@@ -690,7 +675,7 @@ static void search_round(scaling_search *s) {
         }
     }
     free(can);
-    op_list_freedoms_free(&f);
+    free(f.exponent);
 }
 
 void op_list_scale(op_list **t, int price) {

@@ -21,7 +21,7 @@ void op_list_scale(op_list **t, int price);
 /* Vectors of exponents: for any x > 0, each value may be multiplied by x to its exponent. A vector has an exponent for
  * each operation, then two for each operation's operands, which are nonzero only for raw values that are multiplied. */
 typedef struct op_list_freedoms {
-    double *exponent; /* [count * length] */
+    double *exponent; /* [count * length]; the caller frees it */
     int count;
     int length; /* 3 * operations of the list */
 } op_list_freedoms;
@@ -29,7 +29,6 @@ typedef struct op_list_freedoms {
 /* Returns the possible scalings: first those without an additional product; then, for each raw value, those that
  * multiply it at some or all of its uses, alone or together with an earlier raw value. */
 op_list_freedoms op_list_freedoms_of(const op_list *t);
-void op_list_freedoms_free(op_list_freedoms *f);
 
 /* Returns a finished list with the same results, in which each value is multiplied by its entry of times[3 * count] > 0
  * (laid out as an exponent vector). */

@@ -8,7 +8,25 @@
 #include "host/base/hashing.h"
 #include "host/image/op_list.h"
 
-static void op_list_renumber(op_list *t, const int *order, const int *number);
+/* Keeps `count` operations: order[count] are their numbers, number[t->count] their new numbers. Operands must come
+ * first. */
+static void renumber(op_list *t, const int *order, const int *number, int count) {
+    op *ops = alloc_more(NULL, t->room, sizeof *ops);
+    for (int i = 0; i < count; i++) {
+        op *o = &ops[i];
+        *o = t->ops[order[i]];
+        const bool values = op_rows[o->code].values > 0;
+        o->a = values && o->a >= 0 ? number[o->a] : o->a;
+        o->b = (values || o->code == OP_PHASE) && o->b >= 0 ? number[o->b] : o->b;
+    }
+    free(t->ops);
+    t->ops = ops;
+    t->count = count;
+    for (int i = 0; i < t->results; i++) {
+        t->result[i] = number[t->result[i]];
+    }
+    op_list_reindex(t);
+}
 
 /* === dependencies between operations ========================================================== */
 
@@ -118,14 +136,6 @@ static void hold(registers *r, int v) {
     r->value[r->count++] = v;
 }
 
-static bool is_held(const registers *r, int v) {
-    int k = 0;
-    while (k < r->count && r->value[k] != v) {
-        k++;
-    }
-    return k < r->count;
-}
-
 /* Computes next[ops], the position of each value's first use. Returns after[TAKEN_MOST * at + k]: the position at which
  * operand k of position `at` is used next. The caller frees it. */
 static int *uses_after(const op_list *t, const int *sequence, int count, int *next) {
@@ -156,7 +166,11 @@ static int op_list_carried_by(const op_list_needs *n, const int *sequence, int c
     for (int at = 0; at < count; at++) {
         const int values = op_list_taken(n->t, sequence[at], found);
         for (int k = 0; k < values; k++) {
-            if (!is_held(&r, found[k])) {
+            int held = 0;
+            while (held < r.count && r.value[held] != found[k]) {
+                held++;
+            }
+            if (held == r.count) {
                 hold(&r, found[k]);
                 r.carried++;
             }
@@ -363,7 +377,7 @@ static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int
     for (int i = 0; i < t->count; i++) {
         put_next(&p, i);
     }
-    op_list_renumber(t, p.order, p.number);
+    renumber(t, p.order, p.number, p.count);
     free(p.order);
     free(p.number);
 }
@@ -509,12 +523,6 @@ bool op_list_has_kinks(const op_list *t) {
            op_list_has(t, OP_MAX);
 }
 
-static void renumber(op *o, const int *number) {
-    const bool values = op_rows[o->code].values > 0;
-    o->a = values && o->a >= 0 ? number[o->a] : o->a;
-    o->b = (values || o->code == OP_PHASE) && o->b >= 0 ? number[o->b] : o->b;
-}
-
 /* x * (1/y) becomes x/y if 1/y has no other use, which saves a rounding and an operation. */
 static void fuse_reciprocals(op_list *t) {
     int *uses = uses_of(t);
@@ -536,6 +544,7 @@ static void fuse_reciprocals(op_list *t) {
 
 static void drop_unused(op_list *t) {
     bool *needed = alloc(t->count, sizeof *needed);
+    int *order = alloc(t->count, sizeof *order);
     int *number = alloc(t->count, sizeof *number);
     for (int i = 0; i < t->results; i++) {
         needed[t->result[i]] = true;
@@ -544,21 +553,14 @@ static void drop_unused(op_list *t) {
     int kept = 0;
     for (int i = 0; i < t->count; i++) {
         if (needed[i]) {
-            op o = t->ops[i];
-            renumber(&o, number);
-            number[i] = kept;
-            t->ops[kept++] = o;
+            order[kept] = i;
+            number[i] = kept++;
         }
     }
-    t->count = kept;
-    for (int i = 0; i < t->results; i++) {
-        t->result[i] = number[t->result[i]];
-    }
+    renumber(t, order, number, kept);
+    free(order);
     free(number);
     free(needed);
-    if (t->room > 0) {
-        op_list_reindex(t);
-    }
 }
 
 void op_list_prune(op_list *t) {
@@ -594,20 +596,16 @@ bool op_list_takes_waves(const op_list *t) {
     return true;
 }
 
-static bool has_finite_numbers(const op_list *t, const op *o) {
-    bool finite = isfinite(o->value);
-    for (int i = 0; i < t->angles && o->parts != NULL; i++) {
-        finite = finite && isfinite(o->parts[i]);
-    }
-    return finite;
-}
-
 int op_list_not_finite(const op_list *t) {
     bool *tainted = alloc(t->count, sizeof *tainted);
     int operand[2];
     for (int i = 0; i < t->count; i++) {
-        tainted[i] = !has_finite_numbers(t, &t->ops[i]);
-        for (int k = op_list_operands(&t->ops[i], operand); k > 0; k--) {
+        const op *o = &t->ops[i];
+        tainted[i] = !isfinite(o->value);
+        for (int k = 0; k < t->angles && o->parts != NULL; k++) {
+            tainted[i] = tainted[i] || !isfinite(o->parts[k]);
+        }
+        for (int k = op_list_operands(o, operand); k > 0; k--) {
             tainted[i] = tainted[i] || tainted[operand[k - 1]];
         }
     }
@@ -669,21 +667,6 @@ int op_list_operations(const op_list *t) {
     return operations;
 }
 
-/* order[t->count]: the operation at each position; number[t->count]: its new position. Operands must come first. */
-static void op_list_renumber(op_list *t, const int *order, const int *number) {
-    op *ops = alloc_more(NULL, t->room, sizeof *ops);
-    for (int i = 0; i < t->count; i++) {
-        ops[i] = t->ops[order[i]];
-        renumber(&ops[i], number);
-    }
-    free(t->ops);
-    t->ops = ops;
-    for (int i = 0; i < t->results; i++) {
-        t->result[i] = number[t->result[i]];
-    }
-    op_list_reindex(t);
-}
-
 uint64_t op_list_hash(const op_list *t) {
     uint64_t hash = WH_HASH_START;
     for (int i = 0; i < t->count; i++) {
@@ -694,9 +677,7 @@ uint64_t op_list_hash(const op_list *t) {
     }
     const size_t numbers = (size_t)t->tables.count * (size_t)t->tables.terms;
     for (size_t i = 0; i < numbers << (unsigned)t->tables.bits; i++) {
-        uint64_t bits;
-        memcpy(&bits, &t->tables.number[i], sizeof bits);
-        hash = hash_of_hashes(hash, bits);
+        hash = hash_of_hashes(hash, number_bits(t->tables.number[i]));
     }
     return hash;
 }

@@ -12,8 +12,7 @@
 enum { FRACTION = 52, BIAS = 1023, SPECIAL = 0x7ff };
 
 char *hex_write(double value, char text[static HEX_SIZE]) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
+    const uint64_t bits = number_bits(value);
     const int scale = (int)(bits >> FRACTION) & SPECIAL;
     uint64_t fraction = bits & ((UINT64_C(1) << FRACTION) - 1);
     const char *sign = bits >> 63 != 0 ? "-" : "";
@@ -28,10 +27,7 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
         fraction = fraction << 4 & ((UINT64_C(1) << FRACTION) - 1);
     }
     digits[count > 1 ? count : 0] = '\0';
-    int exponent = scale > 0 ? scale - BIAS : 1 - BIAS;
-    if (scale == 0 && count == 1) {
-        exponent = 0; /* 0x0p+0 */
-    }
+    const int exponent = scale > 0 ? scale - BIAS : count > 1 ? 1 - BIAS : 0; /* 0x0p+0 */
     snprintf(text, HEX_SIZE, "%s0x%d%sp%+d", sign, scale > 0 ? 1 : 0, digits, exponent);
     return text;
 }

@@ -2,13 +2,8 @@
 #include "double_double.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "core/number/two_part.h"
-
-static double_double two_product(double a, double b) {
-    return (double_double){a * b, wh_product_rest(a, b)};
-}
 
 double_double double_double_of(double value) { return (double_double){value, 0.0}; }
 
@@ -19,8 +14,6 @@ static double_double of_whole(uint64_t value) {
 double_double double_double_ratio(uint64_t numerator, uint64_t denominator) {
     return double_double_div(of_whole(numerator), of_whole(denominator));
 }
-
-static double_double double_double_neg(double_double a) { return (double_double){-a.high, -a.low}; }
 
 double_double double_double_scale(double_double a, double power_of_two) {
     return (double_double){a.high * power_of_two, a.low * power_of_two};
@@ -34,15 +27,15 @@ double_double double_double_add(double_double a, double_double b) {
 }
 
 double_double double_double_sub(double_double a, double_double b) {
-    return double_double_add(a, double_double_neg(b));
+    return double_double_add(a, (double_double){-b.high, -b.low});
 }
 
 double_double double_double_mul(double_double a, double_double b) {
     if (double_double_is_zero(a) || double_double_is_zero(b)) {
         return double_double_of(0.0);
     }
-    const double_double product = two_product(a.high, b.high);
-    return wh_pair_of(product.high, product.low + (a.high * b.low + a.low * b.high));
+    const double rest = wh_product_rest(a.high, b.high);
+    return wh_pair_of(a.high * b.high, rest + (a.high * b.low + a.low * b.high));
 }
 
 double_double double_double_div(double_double a, double_double b) {
@@ -60,14 +53,11 @@ bool double_double_is_finite(double_double a) { return isfinite(a.high) && isfin
 
 double double_double_constant(double_double a) {
     static const uint64_t beyond_float = (UINT64_C(1) << 29) - 1; /* the 29 bits that float lacks */
-    uint64_t bits;
-    double nearest;
-    memcpy(&bits, &a.high, sizeof bits);
+    uint64_t bits = wh_bits(a.high);
     if (a.low != 0.0 && (bits & beyond_float) == (beyond_float + 1) / 2) {
         bits += (a.low > 0.0) == (a.high > 0.0) ? UINT64_C(1) : UINT64_MAX;
     }
-    memcpy(&nearest, &bits, sizeof nearest);
-    return nearest;
+    return wh_of_bits(bits);
 }
 
 double double_double_beyond_float(double_double a) {

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "double_double.h"
 #include "enclosure.h"
@@ -25,11 +24,7 @@ folding *folding_use(folding *f) {
 
 int folding_way(void) { return now->way; }
 
-static uint64_t digits_of(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits & ((UINT64_C(1) << 52) - 1);
-}
+static uint64_t digits_of(double x) { return number_bits(x) & ((UINT64_C(1) << 52) - 1); }
 
 /* Output bits depend on all input bits (Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014) */
 static uint64_t mixed(uint64_t z) {

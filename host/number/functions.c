@@ -107,40 +107,28 @@ double number_floor(double x) {
 
 double number_ceiling(double x) { return -number_floor(-x); }
 
-double number_nearest(double x) {
-    const double size = WH_ABS(x);
-    if (!(size < ALL_WHOLE)) {
-        return x;
-    }
-    const double whole = whole_part(size);
-    return like(size - whole >= 0.5 ? whole + 1.0 : whole, x);
-}
-
-double number_even(double x) {
+/* Rounds to nearest. Ties go to even, or away from zero. */
+static double nearest(double x, bool even) {
     const double size = WH_ABS(x);
     if (!(size < ALL_WHOLE)) {
         return x;
     }
     const double whole = whole_part(size);
     const double rest = size - whole;
-    const bool up = rest > 0.5 || (rest == 0.5 && (int64_t)whole % 2 != 0);
+    const bool up = rest > 0.5 || (rest == 0.5 && !(even && (int64_t)whole % 2 == 0));
     return like(up ? whole + 1.0 : whole, x);
 }
 
+double number_nearest(double x) { return nearest(x, false); }
+double number_even(double x) { return nearest(x, true); }
+
 double number_scaled(double x, int exponent) {
-    while (exponent > 1023) {
-        if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
-            return x;
-        }
+    for (; exponent > 1023; exponent -= 1023) {
         x *= 0x1p1023;
-        exponent -= 1023;
     }
-    while (exponent < -1022) { /* a step of 2^-969 keeps 53 bits, so only the last step rounds */
-        if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
-            return x;
-        }
+    for (; exponent < -1022;
+         exponent += 969) { /* this keeps 53 bits, so only the last step rounds */
         x *= 0x1p-969;
-        exponent += 969;
     }
     return x * wh_power_of_two(exponent);
 }
@@ -199,7 +187,7 @@ double number_centred(double x, double y) {
         rest -= by;
         rest = (twice ? rest + rest >= by : rest >= 0.5 * by) ? rest - by : rest;
     }
-    return wh_signed(rest, wh_bits(x) >> 63 != 0);
+    return like(rest, x);
 }
 
 double number_least(double a, double b) { return b < a || wh_is_nan(a) ? b : a; }

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <string.h>
 
 /* === rows of functions ================================================================== */
 /* The language's functions. Code that lists them uses these rows, or switches over function_id with -Wswitch-enum. So
@@ -128,6 +130,12 @@ double number_centred(double x, double y);
  * and 0.5 <= |y| < 1. Both return zeros, infinities and NaN unchanged. */
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
+
+static inline uint64_t number_bits(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
 
 /* The smaller and the larger number. If one is NaN, the result is the other. If both are zero, the result is `a`. */
 double number_least(double a, double b);

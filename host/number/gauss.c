@@ -2,14 +2,6 @@
 
 #include <math.h>
 
-static void swap_rows(double *a, double *b, int columns) {
-    for (int k = 0; k < columns && a != b; k++) {
-        const double kept = a[k];
-        a[k] = b[k];
-        b[k] = kept;
-    }
-}
-
 /* Subtracts a multiple of row `of` from `row`, so that the entry of `row` in the pivot's column becomes 0. */
 static void clear(double *row, const double *of, int columns, int pivot) {
     const double part = row[pivot] / of[pivot];
@@ -35,7 +27,11 @@ int gauss_reduce(double *m, int rows, int columns, int pivots, bool full, double
         if (!(fabs(m[row * columns + column]) > zero)) {
             continue;
         }
-        swap_rows(m + rank * columns, m + row * columns, columns);
+        for (int k = 0; k < columns && row != rank; k++) {
+            const double kept = m[rank * columns + k];
+            m[rank * columns + k] = m[row * columns + k];
+            m[row * columns + k] = kept;
+        }
         for (int i = 0; i < rows; i++) {
             if (i != rank) {
                 clear(m + i * columns, m + rank * columns, columns, column);

@@ -21,21 +21,15 @@ uint128 uint128_minus(uint128 a, uint128 b) {
     return (uint128){a.high - b.high - (a.low < b.low ? 1U : 0U), a.low - b.low};
 }
 
-/* The full product of two words of 64 bits, computed from their halves. */
-static uint128 product(uint64_t a, uint64_t b) {
-    const uint64_t half = UINT32_MAX;
-    const uint64_t low = (a & half) * (b & half);
-    /* at most (2^32 - 1)^2 + 2^32, which fits */
-    const uint64_t cross = (a >> 32) * (b & half) + (low >> 32);
-    const uint64_t other = (a & half) * (b >> 32) + (cross & half);
-    return (uint128){(a >> 32) * (b >> 32) + (cross >> 32) + (other >> 32),
-                     (other << 32) | (low & half)};
-}
-
+/* The product of the low words is computed from their halves. */
 uint128 uint128_times(uint128 a, uint128 b) {
-    uint128 made = product(a.low, b.low);
-    made.high += a.high * b.low + a.low * b.high;
-    return made;
+    const uint64_t half = UINT32_MAX;
+    const uint64_t low = (a.low & half) * (b.low & half);
+    /* at most (2^32 - 1)^2 + 2^32, which fits */
+    const uint64_t cross = (a.low >> 32) * (b.low & half) + (low >> 32);
+    const uint64_t other = (a.low & half) * (b.low >> 32) + (cross & half);
+    const uint64_t high = (a.low >> 32) * (b.low >> 32) + (cross >> 32) + (other >> 32);
+    return (uint128){high + a.high * b.low + a.low * b.high, (other << 32) | (low & half)};
 }
 
 bool uint128_below(uint128 a, uint128 b) {

@@ -25,22 +25,16 @@ static uint64_t mixed(uint64_t hash, uint64_t with) {
     return hash ^ (hash >> 29);
 }
 
-static uint64_t bits_of(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
 static uint64_t hash_of(const node *n) {
     uint64_t hash = mixed((uint64_t)n->kind, (uint64_t)(n->left + 1));
     hash = mixed(hash, (uint64_t)(n->right + 1));
-    return mixed(mixed(hash, bits_of(n->number.low)), bits_of(n->number.high));
+    return mixed(mixed(hash, number_bits(n->number.low)), number_bits(n->number.high));
 }
 
 static bool same(const node *a, const node *b) {
     return a->kind == b->kind && a->left == b->left && a->right == b->right &&
-           bits_of(a->number.low) == bits_of(b->number.low) &&
-           bits_of(a->number.high) == bits_of(b->number.high);
+           number_bits(a->number.low) == number_bits(b->number.low) &&
+           number_bits(a->number.high) == number_bits(b->number.high);
 }
 
 static int *slot_of(const graph *g, const node *n) {

@@ -442,7 +442,7 @@ TEST(tape_freed, few_raw_values_are_multiplied) {
             TEST_ASSERT_EQUAL(raws < 3, whole);
             TEST_ASSERT_EQUAL_INT(raws == 0, without_raw(&f));
             expect_free(t, &f, true);
-            op_list_freedoms_free(&f);
+            free(f.exponent);
             op_list_free(t);
         }
     }
@@ -518,7 +518,7 @@ TEST(tape_freed, multiplied_lists_compute_the_same) {
         op_list_free(other);
         op_list_freedoms f = op_list_freedoms_of(t);
         expect_free(t, &f, false);
-        op_list_freedoms_free(&f);
+        free(f.exponent);
         free(times);
         TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* negative or NaN if the bias is not known */
         op_list_free(t);
