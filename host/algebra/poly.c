@@ -143,14 +143,14 @@ static bool power_multiplies_out(const poly *base, double exponent, double kept)
     return terms <= POWER_TERMS_MAX;
 }
 
-/* === sums of many polys ======================================================================= */
-/* Adding polys one by one would build and store every partial sum, so the terms are collected first. */
+/* === the limit of work ======================================================================== */
 
 /* Limit of the work of a derivation, in bytes: some half a minute. An arm of six joints of nonzero lengths needs
  * 0.42e9. */
 #define WORK_MAX ((size_t)1 << 29)
 /* Processing one term counts as this many bytes of work. */
 #define WORK_OF_TERM 2U
+
 static void count_bytes(algebra *a, size_t bytes) {
     a->work += bytes;
     if (a->work > WORK_MAX) {
@@ -159,6 +159,9 @@ static void count_bytes(algebra *a, size_t bytes) {
 }
 
 static void count_terms(algebra *a, size_t terms) { count_bytes(a, terms * WORK_OF_TERM); }
+
+/* === sums of many polys ======================================================================= */
+/* Adding polys one by one would build and store every partial sum, so the terms are collected first. */
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {

@@ -12,6 +12,9 @@
 
 static bool whole_in_angle(const poly *angle, const symbol *sym);
 
+/* Only tangents, of all atoms, can be computed from a turn angle's sine and cosine. */
+static bool is_tangent(const atom *x) { return x->kind == ATOM_CALL && x->function == FN_TAN; }
+
 /* Does `sym` occur in this product only inside sines and cosines? If `tangents`, tangents are allowed, too. */
 static bool is_in_waves(const mono *m, const symbol *sym, bool tangents) {
     for (int k = 0; k < m->count; k++) {
@@ -19,7 +22,7 @@ static bool is_in_waves(const mono *m, const symbol *sym, bool tangents) {
         if (x->kind == ATOM_SYMBOL && x->symbol == sym && x->primes == 0) {
             return false;
         }
-        const bool tangent = tangents && lower_is_tangent(x);
+        const bool tangent = tangents && is_tangent(x);
         for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
             if (!(tangent ? whole_in_angle : lower_only_in_waves)(x->argument[j], sym)) {
                 return false;
@@ -344,7 +347,7 @@ static int sines_inside(const poly *p) {
         most = here > most ? here : most;
         for (int k = 0; k < m->count; k++) {
             const atom *x = m->factors[k].atom;
-            const int own = lower_is_tangent(x);
+            const int own = is_tangent(x);
             for (int j = 0; j < 2 && x->argument[j] != NULL; j++) {
                 here = own + sines_inside(x->argument[j]);
                 most = here > most ? here : most;
@@ -415,15 +418,6 @@ static bool has_part(const lowering *l, const poly *angle) {
 }
 
 static void waves_plan(lowering *l, const poly **angles, int count) {
-    for (int i = 1; i < count; i++) { /* a stable sort, smallest first */
-        const poly *angle = angles[i];
-        int j = i;
-        while (j > 0 && size_of(angles[j - 1]) > size_of(angle)) {
-            angles[j] = angles[j - 1];
-            j--;
-        }
-        angles[j] = angle;
-    }
     if (l->lead > 0 && l->lead < count) {
         const poly *first = angles[l->lead];
         memmove(angles + 1, angles, (size_t)l->lead * sizeof *angles);
@@ -525,6 +519,7 @@ static int wave_of(lowering *l, const poly *angle, trig which) {
 
 #define SAME 1e-13 /* coefficients within this relative difference come from the same number */
 
+/* Different angles, the smallest first, and equally large ones in the order of entry. */
 typedef struct angle_list {
     const poly **angles;
     int count;
@@ -540,7 +535,7 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
             for (int k = 0; k < 2 && x->argument[k] != NULL; k++) {
                 collect_angles(l, x->argument[k], list);
             }
-            if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
+            if (is_tangent(x) && waves_turns(l, x->argument[0])) {
                 collect_angles(l, poly_sin(a, x->argument[0]), list);
             }
         }
@@ -554,7 +549,11 @@ static void collect_angles(const lowering *l, const poly *p, angle_list *list) {
         }
         if (!skipped) {
             list->angles = alloc_more(list->angles, list->count + 1, sizeof *list->angles);
-            list->angles[list->count++] = pieces[i].angle;
+            int at = list->count++;
+            for (; at > 0 && size_of(list->angles[at - 1]) > size_of(pieces[i].angle); at--) {
+                list->angles[at] = list->angles[at - 1];
+            }
+            list->angles[at] = pieces[i].angle;
         }
     }
     free(pieces);
@@ -605,7 +604,7 @@ static int atom_node(lowering *l, const atom *x) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
     /* a tangent without turn angles calls tan(), because a phase would round its argument to 1.5e-9 rad */
-    if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
+    if (is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = wave_of(l, x->argument[0], TRIG_SIN);
         return op_list_div(l->list, s, wave_of(l, x->argument[0], TRIG_COS));
     }

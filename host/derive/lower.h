@@ -69,11 +69,6 @@ void lower_multiply(lowering *l, node_product *p, int node, int exponent);
 /* Returns the operation for the sum of the products, which are overwritten. Shared factors are taken out. */
 int lower_sum(lowering *l, node_product *products, int count);
 
-/* Only tangents, of all atoms, can be computed from a turn angle's sine and cosine. */
-static inline bool lower_is_tangent(const atom *x) {
-    return x->kind == ATOM_CALL && x->function == FN_TAN;
-}
-
 /* Can `sym` be a turn angle? It can if p contains it only in sines, cosines and tangents, and times whole numbers. */
 bool lower_only_in_waves(const poly *p, const symbol *sym);
 

@@ -234,8 +234,29 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
 }
 
 /* === a list as sums of products =============================================================== */
-/* The conversion adds sums, multiplies them out, and divides them by functions of the angles. This is its state. */
+enum { PRODUCTS_MOST = 128 }; /* products in a sum */
 
+/* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
+typedef struct term_product {
+    const unsigned char *power; /* [symbols] */
+    int coefficient;            /* operation of `coefficients` */
+} term_product;
+
+typedef struct product_sum {
+    term_product *product; /* [count], all with different powers */
+    int count;
+} product_sum;
+
+typedef struct products {
+    op_list *coefficients; /* functions of turn angles alone: without rates, inputs and reals */
+    int *symbol;           /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
+    int symbols;
+    product_sum *result; /* [results of the list] */
+    int results;
+    struct arena *memory;
+} products;
+
+/* The conversion adds sums, multiplies them out, and divides them by functions of the angles. This is its state. */
 typedef struct collecting {
     products *made;
     const op_list *list;

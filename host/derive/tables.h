@@ -5,30 +5,6 @@
 #include "host/image/image.h"
 #include "host/image/op_list.h"
 
-/* === a list as sums of products =============================================================== */
-
-enum { PRODUCTS_MOST = 128 }; /* products in a sum */
-
-/* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
-typedef struct term_product {
-    const unsigned char *power; /* [symbols] */
-    int coefficient;            /* operation of `coefficients` */
-} term_product;
-
-typedef struct product_sum {
-    term_product *product; /* [count], all with different powers */
-    int count;
-} product_sum;
-
-typedef struct products {
-    op_list *coefficients; /* functions of turn angles alone: without rates, inputs and reals */
-    int *symbol;           /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
-    int symbols;
-    product_sum *result; /* [results of the list] */
-    int results;
-    struct arena *memory;
-} products;
-
 /* The reason why a list cannot have tables, in words that follow "the accelerations ", and a hint. */
 typedef struct refusal {
     const char *reason;

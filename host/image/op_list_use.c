@@ -36,9 +36,10 @@ enum { OP_LIST_REGISTERS = 20 };
 /* The dependencies of operations. A phase depends on the previous phase, because a list numbers its waves in order. */
 typedef struct op_list_needs {
     const op_list *t;
-    int *before; /* [t->count] for a phase, the previous phase; else -1 */
-    bool *given; /* [t->count] needs no computation */
-    int *first;  /* [t->count + 1] index in user[] of the first user; users are in order */
+    struct arena *memory; /* owner of all working memory, also of registers and schedules */
+    int *before;          /* [t->count] for a phase, the previous phase; else -1 */
+    bool *given;          /* [t->count] needs no computation */
+    int *first;           /* [t->count + 1] index in user[] of the first user; users are in order */
     int *user;
 } op_list_needs;
 
@@ -69,11 +70,16 @@ static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) 
     return count;
 }
 
+/* Zeroed working memory: `size` bytes for each operation of the list. */
+static void *room(const op_list_needs *n, size_t size) {
+    return arena_alloc(n->memory, (size_t)n->t->count * size);
+}
+
 static op_list_needs op_list_needs_of(const op_list *t) {
-    op_list_needs n = {.t = t,
-                       .before = alloc(t->count, sizeof *n.before),
-                       .given = alloc(t->count, sizeof *n.given),
-                       .first = alloc((int64_t)t->count + 1, sizeof *n.first)};
+    op_list_needs n = {.t = t, .memory = arena_new()};
+    n.before = room(&n, sizeof *n.before);
+    n.given = room(&n, sizeof *n.given);
+    n.first = arena_alloc(n.memory, ((size_t)t->count + 1) * sizeof *n.first);
     int found[NEEDED_MOST];
     int phase = -1;
     for (int i = 0; i < t->count; i++) {
@@ -90,23 +96,15 @@ static op_list_needs op_list_needs_of(const op_list *t) {
     for (int i = 0; i < t->count; i++) {
         n.first[i + 1] += n.first[i];
     }
-    n.user = alloc(n.first[t->count], sizeof *n.user);
-    int *next = alloc_more(NULL, t->count, sizeof *next);
+    n.user = arena_alloc(n.memory, (size_t)n.first[t->count] * sizeof *n.user);
+    int *next = room(&n, sizeof *next);
     memcpy(next, n.first, (size_t)t->count * sizeof *next);
     for (int i = 0; i < t->count; i++) {
         for (int k = op_list_needed(&n, i, found); k > 0; k--) {
             n.user[next[found[k - 1]]++] = i;
         }
     }
-    free(next);
     return n;
-}
-
-static void op_list_needs_free(op_list_needs *n) {
-    free(n->before);
-    free(n->given);
-    free(n->first);
-    free(n->user);
 }
 
 typedef struct registers {
@@ -137,9 +135,10 @@ static void hold(registers *r, int v) {
 }
 
 /* Computes next[ops], the position of each value's first use. Returns after[TAKEN_MOST * at + k]: the position at which
- * operand k of position `at` is used next. The caller frees it. */
-static int *uses_after(const op_list *t, const int *sequence, int count, int *next) {
-    int *after = alloc_more(NULL, TAKEN_MOST * count, sizeof *after);
+ * operand k of position `at` is used next. */
+static int *uses_after(const op_list_needs *n, const int *sequence, int count, int *next) {
+    const op_list *t = n->t;
+    int *after = room(n, TAKEN_MOST * sizeof *after);
     int found[TAKEN_MOST];
     for (int i = 0; i < t->count; i++) {
         next[i] = INT_MAX;
@@ -158,9 +157,8 @@ static int *uses_after(const op_list *t, const int *sequence, int count, int *ne
 
 /* Counts loads and stores in this sequence. Replacing the value whose next use is latest is optimal (Belady, 1966). */
 static int op_list_carried_by(const op_list_needs *n, const int *sequence, int count) {
-    registers r = {.next = alloc_more(NULL, n->t->count, sizeof *r.next),
-                   .stored = alloc_more(NULL, n->t->count, sizeof *r.stored)};
-    int *after = uses_after(n->t, sequence, count, r.next);
+    registers r = {.next = room(n, sizeof *r.next), .stored = room(n, sizeof *r.stored)};
+    const int *after = uses_after(n, sequence, count, r.next);
     int found[TAKEN_MOST];
     memcpy(r.stored, n->given, (size_t)n->t->count * sizeof *r.stored);
     for (int at = 0; at < count; at++) {
@@ -189,15 +187,11 @@ static int op_list_carried_by(const op_list_needs *n, const int *sequence, int c
             hold(&r, sequence[at]);
         }
     }
-    free(after);
-    free(r.next);
-    free(r.stored);
     return r.carried;
 }
 
-/* The caller frees the array. */
 static int *op_list_computed(const op_list_needs *n, int *count) {
-    int *sequence = alloc_more(NULL, n->t->count, sizeof *sequence);
+    int *sequence = room(n, sizeof *sequence);
     *count = 0;
     for (int i = 0; i < n->t->count; i++) {
         if (!n->given[i]) {
@@ -210,10 +204,9 @@ static int *op_list_computed(const op_list_needs *n, int *count) {
 int op_list_carried(const op_list *t) {
     op_list_needs n = op_list_needs_of(t);
     int count;
-    int *sequence = op_list_computed(&n, &count);
+    const int *sequence = op_list_computed(&n, &count);
     const int times = op_list_carried_by(&n, sequence, count);
-    free(sequence);
-    op_list_needs_free(&n);
+    arena_free(n.memory);
     return times;
 }
 
@@ -255,12 +248,12 @@ static void use_up(schedule *s, int v) {
 static schedule schedule_of(const op_list_needs *n) {
     const op_list *t = n->t;
     schedule s = {.needs = n,
-                  .waits = alloc(t->count, sizeof *s.waits),
-                  .uses = alloc(t->count, sizeof *s.uses),
-                  .ends = alloc(t->count, sizeof *s.ends),
-                  .until = alloc(t->count, sizeof *s.until),
-                  .ready = alloc_more(NULL, t->count, sizeof *s.ready),
-                  .done = alloc(t->count, sizeof *s.done)};
+                  .waits = room(n, sizeof *s.waits),
+                  .uses = room(n, sizeof *s.uses),
+                  .ends = room(n, sizeof *s.ends),
+                  .until = room(n, sizeof *s.until),
+                  .ready = room(n, sizeof *s.ready),
+                  .done = room(n, sizeof *s.done)};
     int found[NEEDED_MOST];
     for (int i = 0; i < t->count; i++) {
         if (n->given[i]) {
@@ -290,15 +283,6 @@ static schedule schedule_of(const op_list_needs *n) {
     return s;
 }
 
-static void schedule_free(schedule *s) {
-    free(s->waits);
-    free(s->uses);
-    free(s->ends);
-    free(s->until);
-    free(s->ready);
-    free(s->done);
-}
-
 /* The rule for ties: the first in order of entry, or the operation whose value is used up first. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
@@ -323,7 +307,7 @@ static int take_best(schedule *s, first_of way) {
 /* Returns a sequence of the operations to compute. */
 static int *ending_lives(const op_list_needs *n, int count, first_of way) {
     schedule s = schedule_of(n);
-    int *sequence = alloc_more(NULL, count, sizeof *sequence);
+    int *sequence = room(n, sizeof *sequence);
     int found[TAKEN_MOST];
     for (int at = 0; at < count; at++) {
         const int i = take_best(&s, way);
@@ -339,7 +323,6 @@ static int *ending_lives(const op_list_needs *n, int count, first_of way) {
             }
         }
     }
-    schedule_free(&s);
     return sequence;
 }
 
@@ -388,26 +371,22 @@ void op_list_order(op_list *t) {
     }
     op_list_needs n = op_list_needs_of(t);
     int count;
-    int *best = op_list_computed(&n, &count);
+    const int *best = op_list_computed(&n, &count);
     int least = op_list_carried_by(&n, best, count);
     bool moved = false;
     for (int way = 0; way < FIRST_OF; way++) {
-        int *tried = ending_lives(&n, count, (first_of)way);
+        const int *tried = ending_lives(&n, count, (first_of)way);
         const int carried = op_list_carried_by(&n, tried, count);
         if (carried < least) {
-            int *worse = best;
             best = tried;
-            tried = worse;
             least = carried;
             moved = true;
         }
-        free(tried);
     }
     if (moved) {
         reorder(t, &n, best, count);
     }
-    free(best);
-    op_list_needs_free(&n);
+    arena_free(n.memory);
 }
 
 /* === sums with a common part ================================================================== */
