@@ -20,7 +20,7 @@ WH_C_BEGIN
 
 /* Bytes of a frame other than its payload, before coding. */
 #define WH_FRAME_FIXED_BYTES 12U
-/* Largest coded size of a frame with this payload, including the final zero. */
+/* Largest coded size of a frame with a payload of this many bytes, including the final zero. */
 #define WH_FRAME_BYTES(payload) \
     (WH_FRAME_FIXED_BYTES + (payload) + (WH_FRAME_FIXED_BYTES + (payload)) / 254U + 2U)
 
@@ -38,7 +38,7 @@ typedef struct wh_frame_reader {
     unsigned room;
     unsigned length;  /* bytes of the frame in progress */
     bool too_long;    /* the frame in progress exceeds `room` and will be dropped */
-    uint32_t dropped; /* number of bad frames, wrapping; any bytes between two zeros are a frame */
+    uint32_t dropped; /* number of bad frames, wrapping; all bytes between two zeros count as one */
 } wh_frame_reader;
 
 #define wh_frame_crc WH_NAME(wh_frame_crc)
@@ -53,7 +53,7 @@ uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count);
  * 0 if it does not fit, and then `bytes` is invalid. */
 unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room);
 
-/* Begin to read frames of up to `room` coded bytes without the final zero: WH_FRAME_BYTES(payload) is enough. */
+/* Begin to read frames, with the memory bytes[room]. WH_FRAME_BYTES(n) is enough for payloads of up to n bytes. */
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room);
 
 /* Process the next byte. Returns true if it ends a good frame: *frame is then that frame, and its payload stays in the

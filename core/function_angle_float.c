@@ -8,7 +8,7 @@
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* Returns base + angle, or base - angle if `minus`, with the sign `sign`. base is in Q30; if 0, `minus` is ignored. */
+/* Returns base + angle, or base - angle if `minus` and base > 0, with the sign `sign`. base is radians in Q30. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);
@@ -89,7 +89,7 @@ static wh_digits arc_of_sine(uint32_t magnitude) {
     } else if (magnitude != WH_BITS_ONE) {
         const uint32_t missing =
             UINT32_C(0x1000000) - ((magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000));
-        /* odd, so that the root's shift is a whole number */
+        /* shift is odd, so that (shift - 1)/2 in the root's exponent is a whole number */
         const uint32_t shift = (wh_leading_zeros(missing) - 1U) | 1U;
         s = (wh_digits){root_of(missing << shift), 2 - (int32_t)((shift - 1U) / 2U)};
     }

@@ -47,7 +47,7 @@ double wh_cosine(double rad);
 wh_pair wh_log_pair(double x);
 /* e^exponent for |exponent| < 1e4, rounded once; the result may be subnormal. */
 double wh_exp_pair(wh_pair exponent);
-/* e^exponent as the product of the returned pair (0.99 to 2, to 60 bits) and 2^*power_of_two. */
+/* Computes e^exponent as p 2^k. Returns p (0.99 to 2, right to 60 bits), and stores k in *power_of_two. */
 wh_pair wh_exp_parts(wh_pair exponent, int *power_of_two);
 /* Returns x 2^exponent, rounded once, for a pair x from 0.99 to 2. The result may be infinite or subnormal. */
 double wh_scaled_pair(wh_pair x, int exponent);

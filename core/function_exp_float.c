@@ -29,9 +29,9 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
 
 /* Returns the logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * Each sector of the mantissa m has a number c near 1/m, a multiple of 1/128. m c is 1 + z exactly, with |z| <= 1/16.
- * The result is exponent - log2(c) + log2(1 + z), with the polynomial log2(e) z - z^2 (...) for the last term. Between
- * 31/32 and 17/16 the other two terms cancel, so small logarithms have the same relative precision as large ones. */
+ * Each of 16 sectors of the mantissa m has a multiple c of 1/128 near 1/m. m c is 1 + z exactly, with |z| <= 1/16. The
+ * result is exponent - log2(c) + log2(1 + z). The polynomial log2(e) z - z^2 (...) approximates log2(1 + z). From 31/32
+ * to 17/16, exponent - log2(c) is 0, so small logarithms have the same relative precision as large ones. */
 static int64_t log2_of(uint32_t magnitude) {
     /* For each sector, c in Q7 in the upper 8 bits, and -log2(c) in Q55 in the other bits. */
     static const uint32_t inverses[] WH_FLASH = {
@@ -115,7 +115,7 @@ static uint32_t wholeness(uint32_t magnitude) {
         return 2U;
     }
     const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
-    /* the top bit is the last digit before the point */
+    /* the top bit has the weight 1; the lower bits are the fraction */
     const uint32_t behind = digits << (exponent - 119U);
     return (behind & ~WH_TOP_BIT) != 0U ? 0U : (behind != 0U ? 1U : 2U);
 }
@@ -154,9 +154,9 @@ float wh_pow(float base, float exponent) {
     const uint32_t zeros = wh_leading_zeros_64(size);
     const wh_digits d = wh_digits_of(y);
     const uint64_t product = ((size << zeros) >> 24) * (d.size >> 8);
-    /* The logarithm of the result is product 2^(exponent - 23 + 24 - zeros - POINT). */
+    /* The result's |log2| is product 2^(d.exponent + 1 - zeros - POINT). `shift` converts it to Q32. */
     const int32_t shift = POINT - 33 + (int32_t)zeros - d.exponent;
-    if (shift < 23) { /* the logarithm is above 2^8 */
+    if (shift < 23) { /* the result's |log2| is at least 2^8 */
         return wh_float_of_bits(below_one ? least : most);
     }
     return shift > 63 ? wh_float_of_bits(sign | WH_BITS_ONE)

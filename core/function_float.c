@@ -45,7 +45,7 @@ wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t size = x.size << zeros;
     const uint32_t first = size & ~UINT32_C(255);
     const bool power_of_two = first == WH_TOP_BIT;
-    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q32, or Q31 if it is one */
+    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31 if power_of_two, else Q32 */
     const uint32_t others = (size - first) << (power_of_two ? 2 : 1);
     return (wh_digits){inverse - wh_high(inverse, wh_high(inverse, others)),
                        (int32_t)zeros - x.exponent - (power_of_two ? 0 : 1)};

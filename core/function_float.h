@@ -13,7 +13,7 @@
 #include "function.h"
 #include "number/flash.h"
 
-/* Without the sign bit, the bits of floats are integers in the order of the floats' magnitudes. */
+/* Bits of floats. If the sign bit is cleared, these integers have the same order as the floats' magnitudes. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)
 #define WH_BITS_ONE UINT32_C(0x3f800000)
 #define WH_BITS_INFINITE UINT32_C(0x7f800000)
@@ -96,16 +96,16 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
  * largest float become infinite, very small results subnormal or zero. `sign` is WH_BITS_SIGN or 0. */
 float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 
-/* num/den, rounded down, in Q31, or in Q32 if below one. In num and den, the top bit is set, the 8 lowest are clear. */
+/* num/den, rounded down: in Q31 if num >= den, else in Q32. num and den have the top bit set and the 8 lowest clear. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
 
 /* 1/x for x > 0. The relative error is at most 1e-9. */
 wh_digits wh_float_inverse(wh_digits x);
 
-/* x log2(e) in Q32, rounded, for x with 24 digits from 2^-27 to below 2^9. */
+/* x log2(e) in Q32, rounded, for 2^-27 <= x < 2^9. The 8 lowest bits of x.size are ignored. */
 uint64_t wh_float_octaves(wh_digits x);
 
-/* 2^(power/2^32) for |power/2^32| < 2^10, negative powers in two's complement. The relative error is at most 6e-10. */
+/* 2^(power/2^32) for |power| < 2^42. A negative power is in two's complement. The relative error is at most 6e-10. */
 wh_digits wh_float_exp2(uint64_t power);
 
 #endif

@@ -6,10 +6,10 @@
 #if WH_DOUBLE
 
 #define LN2_HIGH \
-    0x1.62e42fefa4p-1 /* e LN2_HIGH + entry.high is exact: both are multiples of 2^-40 */
+    0x1.62e42fefa4p-1 /* a multiple of 2^-40, as entry.high, so that exponent * LN2_HIGH + entry.high is exact */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
-/* The bits of 0.7051, the least m. m is below twice this number. */
+/* The bits of 0.7051. In x = 2^e m, the mantissa m is at least this number and below twice this number. */
 #define LEAST_BITS UINT64_C(0x3fe6900000000000)
 
 typedef struct entry {

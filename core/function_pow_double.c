@@ -35,7 +35,7 @@ static double positive_power(double size, double y) {
     return wh_exp_pair(wh_pair_of(product.high, product.low + logarithm.low * y));
 }
 
-/* Returns base^y if the base is zero or infinite, or y is infinite. y is not zero, and neither is NaN. */
+/* Returns base^y if the base is zero or infinite, or y is infinite. y is not zero; base and y are not NaN. */
 static double edge_power(double base, double y) {
     if (y == WH_INFINITY || y == -WH_INFINITY) {
         const double size = WH_ABS(base);

@@ -1,7 +1,7 @@
-/* function_sine_double.c: sine, cosine and tangent in double, for angles of any size. Integers convert the angle to
- * quarter turns with 190 bits after the point, from as many bits of 2/pi as its size requires (Payne and Hanek, ACM
- * SIGNUM Newsletter 18 (1983) 1). No double is nearer to a multiple of a quarter turn than 2^-62 quarter turns, so the
- * remainder has at least 70 right bits. */
+/* function_sine_double.c: sine, cosine and tangent in double, for angles of any size. The angle's mantissa is
+ * multiplied by those bits of 2/pi that its exponent requires (Payne and Hanek, ACM SIGNUM Newsletter 18 (1983) 1). The
+ * product is the angle in quarter turns, modulo 4, with 190 bits after the binary point. No double is nearer to a
+ * multiple of a quarter turn than 2^-62 quarter turns, so the remainder has at least 70 right bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE
@@ -49,7 +49,7 @@ static uint64_t bits_from(unsigned first) {
     return shift == 0 ? word[0] : (word[0] << shift) | (word[1] >> (64U - shift));
 }
 
-/* Converts the fraction 0.word[0] word[1] word[2] of a quarter turn, at most a half, to radians. */
+/* Converts a fraction of a quarter turn to radians. It is 0.word[0] word[1] word[2] in binary, and at most 1/2. */
 static wh_pair in_radians(uint64_t *word) {
     int exponent = 0;
     while (word[0] >> 63 == 0 && exponent > -128) {
@@ -81,13 +81,13 @@ static turned reduced(double rad) {
     for (unsigned i = 3; i-- > 0;) {
         word[i] = product_lower(mantissa, bits_from(first + 64U * i), &carry);
     }
-    /* The two bits before the point are the number of quarter turns. It is rounded to nearest. */
+    /* The top two bits are the number of whole quarter turns, modulo 4. The other bits are the fraction. */
     unsigned quarters = (unsigned)(word[0] >> 62);
     word[0] = (word[0] << 2) | (word[1] >> 62);
     word[1] = (word[1] << 2) | (word[2] >> 62);
     word[2] <<= 2;
     const bool over = word[0] >> 63 != 0;
-    if (over) { /* negation; the missing unit of the lowest bit is negligible */
+    if (over) { /* the next quarter turn is nearer; ~word is 1 - word - 2^-192 */
         quarters++;
         word[0] = ~word[0];
         word[1] = ~word[1];

@@ -16,7 +16,7 @@ static const uint32_t two_over_pi[] WH_FLASH = {
 /* Subtracts the nearest whole number of quarter turns from a magnitude. Returns the size of the remainder in radians.
  * *odd: the number of quarter turns is odd. *below: the remainder is negative. */
 static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
-    /* A float is `digits` times 2^(exponent - 150). Skips the digits of 2/pi that contribute only whole half turns. */
+    /* The skipped bits of 2/pi add only whole half turns, because the float is digits 2^((magnitude >> 23) - 150). */
     const uint32_t skip = (magnitude >> 23) - (150U - 31U);
     const uint32_t *word = &two_over_pi[skip >> 5];
     const uint32_t shift = skip & 31U;

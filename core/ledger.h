@@ -4,14 +4,14 @@
  * if T is a quadratic form of the rates and V does not depend on the rates. Account 1 + i is the generalized momentum
  * dL/dq_i' of coordinate i, in the scene's order; coordinates that follow from a conserved momentum come last.
  *
- * Each entry is the sum of the changes that one cause made to one account since the start, in this order:
+ * Each entry is the sum of the changes that one cause has made to one account since the start. In order, they are:
  * - smooth entries: the work of each input, the loss of each damper (negative), the impulse of each generalized force.
  * - for each contact, its energy and its impulse along each coordinate.
  * - for each input in the energies, the work -dL/dt of its changes between steps.
  * - if the scene asks for it, the energy that stabilization has added (stabilize.h).
  *
- * Powers and forces, including contact forces, are integrated with the weights of the method's own stages, so the
- * entries have the method's order. Impacts, captures and assignments are entered when they happen. Sums are
+ * Powers and forces, including contact forces, are integrated by the method's own weighted sum over its stages, so the
+ * entries have the method's order. An impact, capture or assignment adds the change that it makes. Sums are
  * compensated. The part of an account's change that no entry explains is the run's numerical drift: wh_ledger_error().
  * Without stabilization, a run with a ledger has the same bits as a run without. ledger_step.h fills the ledger. */
 #ifndef WH_LEDGER_H
@@ -26,19 +26,19 @@ WH_C_BEGIN
 typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_real *linear,
                           const wh_real *rate, const wh_real *input, wh_real *level);
 
-/* A scene's ledger, all constant. The functions are operation lists, like the accelerations. */
+/* A scene's constant data for the ledger. The functions are lists of operations, like the accelerations. */
 struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *powers;  /* result[smooth]: rate of change of each entry's account */
     wh_levels_fn *levels; /* result[1 + all coordinates] */
-    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. For example, the term th^2 th' of an
-     * energy drops out of the accelerations, but not out of dL/dth. */
+    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. For example, a term th^2 th' of L
+     * does not change the accelerations, but its derivative dL/dth = 2 th th' needs the angle th. */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] account of each smooth entry */
-    const uint8_t *input;   /* [inputs] inputs in the energies, in the order of their entries */
+    const uint8_t *input;   /* [inputs] index in state->input of each input in the energies */
     uint16_t smooth;        /* number of smooth entries */
     uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
-    uint8_t accounts;       /* reals besides entries: 2 per account, 1 per input, 1 if stabilized */
+    uint8_t accounts;       /* other stored reals: 2 per account, 1 per input, 1 if stabilized */
     uint8_t coordinates;    /* number of integrated coordinates */
     uint8_t angles;         /* number of coordinates stored as turn angles; they come first */
     uint8_t inputs;
@@ -73,19 +73,19 @@ WH_INLINE unsigned wh_ledger_level_count(const wh_ledger_form *form) {
     return ((unsigned)form->accounts - form->inputs - form->stabilized) / 2U;
 }
 
-/* Changes of the accounts by corrections such as wh_scene_set_real(). A correction also moves the start's levels by the
- * same amount, so that the entries still add up to the change since the start. */
+/* Returns the sums of the changes of each account by corrections such as wh_scene_set_real(). A correction changes the
+ * account's stored initial value by the same amount, so the entries still add up to the change since the start. */
 WH_INLINE wh_real *wh_ledger_corrected(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + wh_ledger_level_count(form);
 }
 
-/* The inputs of the last step, [inputs]. */
+/* Returns an array [form->inputs]: the value of each input form->input[k] in the last step. */
 WH_INLINE wh_real *wh_ledger_kept(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - form->inputs -
            form->stabilized;
 }
 
-/* If form->stabilized: the largest P of stabilize.h so far, in J. */
+/* If form->stabilized: the largest P = sum q_i' dL/dq_i' (stabilize.h) so far, in J. */
 WH_INLINE wh_real *wh_ledger_most(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - 1U;
 }
@@ -103,8 +103,8 @@ WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *stat
                  level);
 }
 
-/* Computes the accounts at the present state, but with the inputs of the last step: the next step will enter the effect
- * of inputs that changed since then. */
+/* Computes the accounts at the present state, but with the inputs of the last step, because no entry has the effect of
+ * newer inputs before the next step. */
 static inline void wh_ledger_last_levels(const wh_ledger_form *form, const wh_state *state,
                                          wh_real *level) {
     for (unsigned k = 0; k < form->inputs; k++) {

@@ -1,4 +1,4 @@
-/* method.c: the methods' data for users. */
+/* method.c: the table of each method's names, order, systems and number of stages. */
 #include "method.h"
 
 #define ROW(id, word, title, order, takes, stages, ...) \
