@@ -1,6 +1,6 @@
 /* function_atan_double.c: the inverse circular functions in double. The table `ray` has the angles of the rays with
  * slope c = i/64. For 0 <= y <= x, the angle from the nearest ray to the point (x, y) has the tangent
- * t = (y - c x)/(x + c y). |t| is at most 1/128, so a short series suffices. asin s is the angle of (sqrt(1 - s^2), s). */
+ * (y - c x)/(x + c y), at most 1/128 in size, so a short series suffices. asin s is the angle of (sqrt(1 - s^2), s). */
 #include "function_double.h"
 #include "root.h"
 

@@ -73,7 +73,7 @@ WH_INLINE unsigned wh_ledger_level_count(const wh_ledger_form *form) {
     return ((unsigned)form->accounts - form->inputs - form->stabilized) / 2U;
 }
 
-/* Returns the sums of the changes of each account by corrections such as wh_scene_set_real(). A correction changes the
+/* Returns for each account the sum of its changes by corrections such as wh_scene_set_real(). A correction changes the
  * account's stored initial value by the same amount, so the entries still add up to the change since the start. */
 WH_INLINE wh_real *wh_ledger_corrected(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + wh_ledger_level_count(form);
@@ -103,8 +103,8 @@ WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *stat
                  level);
 }
 
-/* Computes the accounts at the present state, but with the inputs of the last step, because no entry has the effect of
- * newer inputs before the next step. */
+/* Computes the accounts at the present state, but with the inputs of the last step, because the entries do not yet
+ * contain the effect of newer inputs. */
 static inline void wh_ledger_last_levels(const wh_ledger_form *form, const wh_state *state,
                                          wh_real *level) {
     for (unsigned k = 0; k < form->inputs; k++) {
