@@ -41,7 +41,7 @@ static word root_of(word x) {
         }
         rest <<= 1;
     }
-    return (root + 1U) >> 1; /* the last bit is half a unit: round */
+    return (root + 1U) >> 1; /* round, because root has one bit too many */
 }
 
 #else
@@ -65,7 +65,7 @@ static word root_of(word x) {
         r = high_half(r, ((UINT32_C(3) << 28) - x_r_r) << 2) << 1;
     }
     uint32_t root = high_half(scaled, r) >> 6;
-    /* x * 2^46 minus the root's square: small, so its low half suffices. */
+    /* x * 2^46 minus the root's square. The difference is small, so 32 bits can hold it. */
     const int32_t rest = (int32_t)((x << 23) - root * root);
     root += (uint32_t)(((int64_t)rest * r + (INT64_C(1) << 54)) >> 55);
     return root;
@@ -92,7 +92,7 @@ wh_real wh_sqrt(wh_real x) {
         }
     }
     fraction |= ONE;
-    if (exponent % 2 == 0) { /* without the bias, which is odd, the exponent is odd */
+    if (exponent % 2 == 0) { /* BIAS is odd, so exponent - BIAS is odd */
         fraction <<= 1;
     }
     /* the root's leading bit increments the exponent */

@@ -1,8 +1,8 @@
 /* root.h: the square root, correctly rounded, without a library.
  *
- * WH_SQRT(x) is the processor's instruction if WH_ROOT_BUILTIN is 1, otherwise wh_sqrt(), with the same bits. Without
- * -fno-math-errno, compilers add a call of libm's sqrtf that sets errno for negative numbers, or emit only the call
- * (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors, use -fno-math-errno. */
+ * WH_SQRT(x) is the processor's instruction if possible, otherwise wh_sqrt(). Both give the same bits. Outside x86, use
+ * -fno-math-errno. Without it, WH_SQRT(x) is wh_sqrt(), because __builtin_sqrtf() would call libm's sqrtf to set errno
+ * for negative numbers. */
 #ifndef WH_ROOT_H
 #define WH_ROOT_H
 
@@ -19,7 +19,7 @@ wh_real wh_sqrt(wh_real x);
 #if defined(__GNUC__) && defined(__NO_MATH_ERRNO__)
 #if defined(__aarch64__) || defined(__wasm__)
 #define WH_ROOT_BUILTIN 1
-#elif defined(__ARM_FP) /* bit 4: float, bit 8: double */
+#elif defined(__ARM_FP) /* mask 4: float, mask 8: double */
 #define WH_ROOT_BUILTIN (__ARM_FP >> (WH_DOUBLE ? 3 : 2) & 1)
 #elif defined(__riscv_flen) && defined(__riscv_fsqrt)
 #define WH_ROOT_BUILTIN (__riscv_flen >= (WH_DOUBLE ? 64 : 32))

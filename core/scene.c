@@ -83,7 +83,7 @@ static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *
     }
 }
 
-/* Returns the number of reals of the ledger in the caller's memory. */
+/* Returns how many reals the ledger needs. */
 static size_t ledgers(const wh_scene *scene) {
     return scene->ledger == NULL ? 0U
                                  : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
@@ -141,7 +141,7 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
     reals += scene->held;
     state->ledger = scene->ledger != NULL ? reals : NULL;
 
-    for (size_t i = 0; i < numbers; i++) { /* carries, holds' values and ledger */
+    for (size_t i = 0; i < numbers; i++) { /* carry, held and ledger begin at 0 */
         state->real[i] = WH_R(0.0);
     }
     for (unsigned i = 0; i < scene->angles; i++) {
@@ -211,7 +211,7 @@ static wh_real rounded(uint64_t part, uint64_t of) {
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
     const wh_fraction step = scene->step;
     wh_time time = {0, wh_scene_time_s(scene, state)};
-    /* two conversions to 32 bits, because small cores convert to 64 bits by double arithmetic */
+    /* Converts to 32 bits twice. On small cores, a conversion to 64 bits would need double arithmetic. */
     if (step.denominator == 0) {
         const wh_real high = time.fraction_s * WH_R(0x1p-24);
         const uint32_t upper = high < WH_R(0x1p32) ? (uint32_t)high : UINT32_MAX;
@@ -272,7 +272,7 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
 }
 
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
-    /* reals = linear + coordinates, and coordinates = linear + angles */
+    /* the rates follow the linear positions, of which there are (reals - angles) / 2 (wh_form) */
     return state->real == NULL ? NULL : state->real + (scene->reals - scene->angles) / 2;
 }
 

@@ -49,8 +49,8 @@ struct wh_scene {
     uint8_t inputs;   /* number of values that may change between steps */
     uint8_t outputs;  /* number of outputs, computed by observe() */
     uint8_t contacts; /* number of stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
-    uint8_t held;     /* number of holds that could slip: curved, or of several coordinates */
-    uint8_t driven;   /* number of inputs with a rate: they set the last positions and rates */
+    uint8_t held;     /* number of holds whose expression is curved, or has several coordinates */
+    uint8_t driven;   /* number of inputs with a rate; they set the coordinates of highest index */
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     wh_fraction step; /* step_s as an exact fraction, for wh_scene_time(); {0, 0}: not known */
@@ -79,9 +79,9 @@ struct wh_scene {
 #define WH_NUMBER_BYTES(angles, all_reals) \
     (WH_SIZE(angles) * sizeof(wh_angle) + WH_SIZE(all_reals) * sizeof(wh_real))
 
-/* For arrays sized by hand: eight-byte words of caller memory for a state with `angles` angles, `reals` reals and
- * `inputs` inputs. Enough for float and double, and for compensated sums. The other macros give the words to add for
- * contacts, for holds that could slip, and for a ledger's entries and its other stored words. */
+/* For arrays sized by hand: number of eight-byte words of caller memory, enough for float and double and for
+ * compensated sums. To WH_STATE_WORDS, add the words for contacts, for wh_scene.held holds, and for a ledger. `entries`
+ * and `accounts` are members of its wh_ledger_form. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
     (WH_SIZE(angles) + (2U * WH_SIZE(reals) + WH_SIZE(angles) + WH_SIZE(inputs)))
 
@@ -106,8 +106,8 @@ struct wh_scene {
 /* Put `state` at the scene's start. `memory` has `bytes` bytes, is aligned as a uint64_t in a struct, and must outlive
  * the run. Returns WH_OK; or an error, with the memory untouched and the state not started:
  * - WH_E_MEMORY: the memory is too small or NULL.
- * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, the scene's method does not take its form, or the
- * scene has too many contacts. No generator writes such a scene.
+ * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, wh_method_takes() is false for the scene, or the
+ * scene has too many contacts. Whirl generates no scene with the last two errors.
  * - WH_E_ARITHMETIC: compiler flags or the machine's modes change results (state->fault: which). */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
@@ -121,16 +121,16 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
  * does; state->steps counts the steps done. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
-/* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
- * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds to the angle: the angle keeps
- * all its digits after many turns.
+/* Correct one component of the state from a measurement, between two steps; SI units. The generated header has the
+ * indices for `real` and `angle`: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds by_rad
+ * to the angle. After many turns, this is more accurate in float than to set the angle.
  *
- * The next step goes on like a run that starts from the corrected state. A coordinate beyond a stop goes back onto the
- * stop, every contact's mode is found again, and each hold keeps its present value. The corrected component loses its
- * compensation. With a ledger, the change of each account is stored separately (wh_ledger_corrected()).
+ * The next step begins like the first step of a run: it moves a coordinate beyond a stop back onto the stop, and finds
+ * every contact's mode again. Each hold then keeps its present value. The low part of the corrected component becomes
+ * 0. A ledger stores the change of each account separately (wh_ledger_corrected()).
  *
- * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that was not started, an unknown index, or a
- * value that is not finite or out of bounds. A component that an input with a rate sets is refused: set the input. */
+ * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged. The errors are: the state was not started, the index is
+ * unknown, an input with a rate sets the component, or the value is not finite or out of bounds. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
@@ -141,8 +141,8 @@ wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned a
  * fraction, the result is wh_scene_time_s() as seconds and fraction. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
-/* Time of the state as one real: steps * step_s. The relative error is at most 1.5 U plus that of step_s, with the unit
- * round-off U: in float 2^-24, so 1 ms in 3 h. The outputs of generated scenes use this time. */
+/* Time of the state as one real: steps * step_s. Two roundings, and the error of step_s, give a relative error of at
+ * most 3 * 2^-24 in float: 2 ms in 3 h. The outputs of generated scenes use this time. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
 /* Returns a hash of steps, angles, reals, holds' values and contact modes, equal on all machines; 0 if not started. */

@@ -1,11 +1,11 @@
 /* scene_set.c: corrects one component of a state from a measurement. The next step finds the contacts' modes again. */
 #include "step/driven.h"
 
-/* Limit on an angle, or on its move, in rad. Assignments have the same limit (contact_crossing.h). */
+/* Limit on an angle, and on the change of an angle, in rad. contact_crossing.h has the same limit for assignments. */
 #define ANGLE_MOST WH_R(1e9)
 
 static bool has_books(const wh_scene *scene, const wh_state *state) {
-    return scene->ledger != NULL && state->steps > 0; /* the first step will store the levels */
+    return scene->ledger != NULL && state->steps > 0; /* the first step stores the first levels */
 }
 
 /* Sets component number `at` (angles first) to *angle or *real. The other pointer is NULL. */

@@ -15,7 +15,7 @@ WH_C_BEGIN
  * First order (systems stated directly): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
-/* Maximum number of moments with events in one step, and of logged events. */
+/* In one step, WH_EVENTS_MAX moments can have events, and the first WH_EVENT_LOG events are logged and counted. */
 #define WH_EVENTS_MAX 8
 #define WH_EVENT_LOG 16
 
@@ -39,8 +39,8 @@ typedef struct wh_event {
 
 typedef struct wh_contacts {
     uint64_t events; /* number of events since the start */
-    /* Number of steps that had more than WH_EVENTS_MAX moments with events, or in which a stop came to rest only
-     * because the last of these moments was reached. */
+    /* Number of steps whose motion may be wrong, because a step can handle only WH_EVENTS_MAX moments with events, or
+     * because the search for the contact forces reached its limit. */
     uint64_t overruns;
     uint32_t logged; /* number of events of the last step, in log[] */
     wh_event log[WH_EVENT_LOG];
@@ -55,7 +55,7 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts; NULL: sums are not compensated */
     wh_real *input;  /* [scene->inputs] SI units; the caller may set them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held;   /* [scene->held] SI units: value of a curved hold, slip of a straight one */
+    wh_real *held;   /* [scene->held] SI units. Curved hold: kept value. Straight hold: slip. */
     wh_real *ledger; /* totals, their carries, other reals (ledger.h); NULL: no ledger */
     /* After WH_E_DIVERGED: index of the component, angles first, then reals. After WH_E_UNDEFINED or WH_E_SINGULAR:
      * index of the contact (contact.h). After WH_E_ARITHMETIC: the failed check, a wh_probed (arithmetic.h). */

@@ -47,7 +47,7 @@ void wh_turn_angle_compensate(wh_turn_angle *angle, bool compensated, wh_real st
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
-    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed mount, or arms without mass */
+    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed mount, or inertia too small for D */
         angle->twice_rad = WH_R(0.0);
         return;
     }
@@ -56,15 +56,15 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real sine = tangent * cosine;
     const wh_real lambda = small_arc(sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
-    /* u is base + phi + psi - gamma */
+    /* u = base + phi + psi - gamma. So the term's angle, 2 (base + phi) + lambda, is 2 u plus the angle of `turned`. */
     const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* Adds the effect of a motor that cannot brake as much as commanded. A part of gravity's torque then remains: S g
- * (-sin(theta - gamma) - k), if that is positive, with k the standstill torque at the drive's own voltage, divided by S
- * g. The Fourier series of this torque has a term of twice the angle. */
+/* Adds the effect of a motor that cannot brake as much as commanded. If -sin(theta - gamma) is more than k, the torque
+ * S g (-sin(theta - gamma) - k) remains. S g k is the torque at standstill that the drive's own voltage gives. The
+ * Fourier series of the remaining torque has a term of twice the angle. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
@@ -158,8 +158,8 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
-        /* With a light rotor, psi reverses the ratio's dependence on the inertia. So Newton's method restarts from a
-         * heavier rotor. If gravity acts along a diagonal, the ratio does not depend on the inertia. */
+        /* The ratio hardly depends on E. If to.sine - from.sine is large, the inertia is too small: the effect of psi
+         * cancels that of E. Otherwise gravity acts along a diagonal, and no inertia helps. */
         if (!angle->compensated && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }

@@ -1,12 +1,12 @@
 /* turn_angle.h: the rotor's angle within a turn, from the two sensors' pulses and the rotor's equation of motion.
  *
- * Arms in a vertical plane do not turn at a constant speed. With phi rising at a constant rate and u = phi + psi -
- * gamma,
+ * Arms in a vertical plane do not turn at a constant speed. Their equation of motion is
  *
- *     theta = base + phi + E [sin u + (E/8) sin(2u - psi/2)]
+ *     I theta'' = -S g sin(theta - gamma) + c (omega - theta')
  *
- * solves I theta'' = -S g sin(theta - gamma) + c (omega - theta') to the second order in E, with
+ * Its solution to the second order in E, with a constant `base` and with phi rising at a constant rate, is
  *
+ *     theta = base + phi + E [sin u + (E/8) sin(2u - psi/2)]      u = base + phi + psi - gamma
  *     E = S g / (omega sqrt(I^2 omega^2 + c^2))      sin psi = c / sqrt(I^2 omega^2 + c^2)
  *
  * S is the sum of mass times radius, gamma the direction of gravity, c the slope of the motor's torque line plus the
@@ -14,10 +14,10 @@
  * degrees at 170 rpm. E, and thus I, is estimated from the quadrature ratio: the fraction of a turn's time before
  * sensor 2's pulse. The ratio does not show c, so c is configured.
  *
- * Gravity compensation (gravity_compensation.h) leaves a part of gravity, of either sign, and reduces E to that part.
- * The quadrature ratio then gives the part, and I stays at its last estimate. The motor's voltage cannot go below 0, so
- * the compensation cannot remove more torque than the drive's own voltage gives. If that is less than S g, the
- * compensation is clipped, and the remaining torque is no sine.
+ * Gravity compensation (gravity_compensation.h) multiplies gravity's torque, and thus E, by a factor near 0: `part`.
+ * `part` can be negative. The quadrature ratio then gives `part`, and I stays at its last estimate. The motor's voltage
+ * cannot go below 0, so the compensation can remove at most the torque that the drive's own voltage gives. If this
+ * torque is less than S g, the compensation is clipped, and the remaining torque is no sine.
  *
  * A carriage of mass M moves along theta = 0. The arms have the mass m. Their effective inertia is I - D sin^2 theta,
  * with D of at most S^2/(M + m). The inertia is least when the arms are across the rail, so the arms speed up twice a
@@ -49,7 +49,7 @@ typedef struct wh_rotor_config {
     wh_real compensation_tolerance_rad; /* error of the compensation's angle, at 95 % */
     wh_real inertia_kgm2;               /* inertia before the first estimate */
     wh_real pulse_rad[2];               /* angle theta of the arms at a pulse of each sensor */
-    wh_real yields_kgm2;                /* D, only without gravity; 0: the mount is fixed */
+    wh_real yields_kgm2;                /* D; 0: fixed mount. If D > 0, gravity must be 0. */
     wh_real yields_tolerance;           /* relative error of D or I, at 95 % */
 } wh_rotor_config;
 
@@ -61,9 +61,9 @@ typedef struct wh_turn_angle {
     wh_real stall_Nm_per_V; /* if compensated: motor torque at standstill per volt */
     wh_real drive_V;        /* drive's voltage without the compensation, set by the caller */
     wh_real part;           /* uncompensated part of gravity; 1 without compensation */
-    uint32_t ratios;        /* turns in the estimate of the inertia or of `part` */
+    uint32_t ratios;        /* number of turns used to estimate the inertia or `part` */
     wh_real whole_rad;      /* E without gravity compensation */
-    /* Part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0. */
+    /* Fraction of S g that the compensation cannot remove, because the motor's voltage cannot go below 0. */
     wh_real cut;
     wh_real ripple_rad; /* E */
     wh_real lag_rad;    /* psi */
@@ -75,7 +75,7 @@ typedef struct wh_turn_angle {
     /* Derivative of base_rad with respect to the quadrature ratio, including the change of psi. */
     wh_real base_per_ratio;
     wh_real base_per_lag; /* derivative of base_rad with respect to psi, at a fixed ratio */
-    /* Derivative of base_rad with respect to a ripple a quarter turn after E's, which the ratio cannot distinguish. */
+    /* Derivative of base_rad with respect to the ripple that the quadrature ratio mistakes for E's (result.c). */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
     wh_wave at_begin; /* sine and cosine of u at the start and at sensor 2's pulse */
@@ -100,8 +100,8 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
                                wh_real speed_radps, unsigned piece);
 #endif
 
-/* Corrects the inertia, or `part`, from the quadrature ratio (0 to 1). The shape must be that of this turn's speed.
- * Returns the error of the angle at sensor 2's pulse, rad. */
+/* Corrects the inertia, or `part` if gravity is compensated, from a turn's quadrature ratio (0 to 1). First call
+ * wh_turn_angle_shape() with this turn's speed. Returns the error of the angle at sensor 2's pulse, rad. */
 wh_real wh_turn_angle_by_ratio(const wh_rotor_config *config, wh_turn_angle *angle, wh_real ratio);
 
 #if WH_RIG_SMALL_PIECES

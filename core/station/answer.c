@@ -5,7 +5,7 @@
 
 #include "core/rig/state_machine.h"
 
-/* Adds words, each blank replaced by `blank`. If `blank` is '_', the words are a list item that ends before '|'. */
+/* Adds `words`, but writes `blank` instead of ' '. If `blank` is '_', stops before '|', which ends a list item. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
@@ -15,7 +15,7 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Adds a float's seven significant digits, with at most eight decimals: wh_line_number() reads nine digits. */
+/* Adds at most seven significant digits and eight decimals, because wh_line_number() reads at most nine digits. */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
     wh_real size = WH_ABS(number);

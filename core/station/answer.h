@@ -33,7 +33,7 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value);
 /* Returns the word's index in the list, from 0; for an unknown word, the number of items. */
 unsigned wh_list_find(const char *list, const char *word);
 
-/* Returns the item with this index, which must be below the number of items. The text continues to the list's end. */
+/* Returns the start of item `number` (from 0; it must exist). The item ends at the next separator or the list's end. */
 const char *wh_list_item(const char *list, unsigned number);
 
 /* === reasons for refusing a console line ===================================================== */
