@@ -2,6 +2,7 @@
 
 #include <stdalign.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,21 +115,12 @@ static size_t bytes_of(int64_t count, size_t size) {
     return bytes > 0 ? bytes : size > 0 ? size : 1;
 }
 
-void *alloc(int64_t count, size_t size) {
-    void *made = calloc(bytes_of(count, size), 1);
-    if (made == NULL) {
-        alloc_none();
-    }
-    return made;
-}
+void *alloc(int64_t count, size_t size) { return alloc_tail(0, count, size); }
 
 void *alloc_tail(size_t head, int64_t count, size_t size) {
     size_t bytes;
-    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &bytes) ||
-        __builtin_add_overflow(bytes, head, &bytes)) {
-        alloc_none();
-    }
-    void *made = calloc(bytes, 1);
+    const bool fits = !__builtin_add_overflow(bytes_of(count, size), head, &bytes);
+    void *made = fits ? calloc(bytes, 1) : NULL;
     if (made == NULL) {
         alloc_none();
     }
@@ -144,17 +136,10 @@ void *alloc_more(void *array, int64_t count, size_t size) {
 }
 
 char *alloc_copy(const char *text, size_t length) {
-    if (length == SIZE_MAX) {
-        alloc_none();
-    }
-    char *copy = malloc(length + 1);
-    if (copy == NULL) {
-        alloc_none();
-    }
+    char *copy = alloc_tail(1, (int64_t)length, 1);
     if (length > 0) {
         memcpy(copy, text, length);
     }
-    copy[length] = '\0';
     return copy;
 }
 
@@ -165,6 +150,16 @@ char *alloc_trimmed(const char *text, size_t length) {
         length--;
     }
     return alloc_copy(text + before, length > before ? length - before : 0);
+}
+
+char *alloc_entry(const char **list) {
+    const char *from = *list;
+    if (from == NULL) {
+        return NULL;
+    }
+    const size_t length = strcspn(from, ",");
+    *list = from[length] == ',' ? from + length + 1 : NULL;
+    return alloc_trimmed(from, length);
 }
 
 char *alloc_words(const char *format, ...) {

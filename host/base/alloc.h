@@ -21,6 +21,9 @@ char *alloc_copy(const char *text, size_t length);
 /* As alloc_copy(), without white space at both ends. */
 char *alloc_trimmed(const char *text, size_t length);
 
+/* The next entry of a list separated by commas, as alloc_trimmed(), or NULL; *list becomes the rest, NULL at the end. */
+char *alloc_entry(const char **list);
+
 /* The text that printf() would print. */
 char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -43,27 +43,7 @@ static const command_usage accel_usage = {
         "\"theta'=330 [rpm]\". A bare number is refused if the declared unit is not SI. Without a value, a\n"
         "state is 0, and an input or parameter has its declared value. A scene includes its effects and\n"
         "their parameters.\n",
-    .tail = "",
     .why = {"", "an acceleration is not a finite number; the message names the expression", ""}};
-
-static bool is_finite(const image *im, const double *result) {
-    for (int i = 0; i < im->count; i++) {
-        if (!isfinite(result[i])) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static void print(const image *im, const double *result) {
-    for (int i = 0; i < im->count; i++) {
-        printf("%s", im->unknown[i].name);
-        for (int k = 0; k < im->unknown[i].order; k++) {
-            putchar('\'');
-        }
-        printf(" = %.17g\n", number_shown(result[i]));
-    }
-}
 
 /* Reports the expression that is not finite at this state. */
 static void tell_undefined(const image *im, const char *file) {
@@ -83,10 +63,15 @@ static void tell_undefined(const image *im, const char *file) {
 static int print_image(const image *im, const char *file) {
     const state_list books = state_list_open(im, IMAGE_BOOKS);
     const double *result = state_list_at(&books, 0.0, im->start_rad, im->start_real);
-    const bool finite = is_finite(im, result);
-    if (finite) {
-        print(im, result);
-    } else {
+    bool finite = true;
+    for (int i = 0; i < im->count; i++) {
+        finite = finite && isfinite(result[i]);
+    }
+    for (int i = 0; i < im->count && finite; i++) {
+        printf("%s%.*s = %.17g\n", im->unknown[i].name, im->unknown[i].order, "''''''''''",
+               number_shown(result[i]));
+    }
+    if (!finite) {
         tell_undefined(im, file);
     }
     state_list_close(&books);
@@ -129,7 +114,6 @@ static const command_usage check_usage = {
         "\n"
         "Reads each FILE and derives its mechanisms and scenes, without running anything. Errors go to\n"
         "standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
-    .tail = "",
     .why = {"every scene of every file can be run", NULL,
             "a file has an error, or cannot be read"}};
 
@@ -195,9 +179,7 @@ static const command_usage usage = {
         "memory, costs and the hash of the model. Values are SI.\n"
         "\n"
         "  --json               one JSON object instead, for programs (docs/describe.md)\n",
-    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
-    .described = false,
-    .tail = ""};
+    .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE};
 
 typedef struct describe_options {
     common_options common;
@@ -208,8 +190,9 @@ typedef struct describe_options {
 static int describe_source(source_model *from, void *options) {
     const describe_options *o = options;
     loaded made;
-    const int code = target_load(&made, from, &o->common,
-                                 (load_request){.use = IMAGE_TO_WRITE, .conserve = true});
+    const int code =
+        target_load(&made, from, &o->common,
+                    (load_request){.use = IMAGE_TO_WRITE, .scene = true, .conserve = true});
     if (code == EXIT_DONE && o->as_json) {
         describe_json(stdout, made.image, from->file);
     } else if (code == EXIT_DONE) {

@@ -93,12 +93,8 @@ static bool read_error(subsets *s, const char *error) {
     for (int i = 1; i < s->columns->columns; i++) {
         s->limit[i] = (double)INFINITY;
     }
-    for (const char *at = error; good && at != NULL;) {
-        const size_t length = strcspn(at, ",");
-        char *limit = alloc_trimmed(at, length);
+    for (char *limit; good && (limit = alloc_entry(&error)) != NULL; free(limit)) {
         good = read_limit(s, limit);
-        free(limit);
-        at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return good;
 }

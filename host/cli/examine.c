@@ -26,9 +26,7 @@ static const command_usage usage = {
         "\n"
         "  --as text            for readers (default)\n"
         "  --as latex           for a paper (with amsmath)\n",
-    .groups = OPTIONS_CHANGE,
-    .described = false,
-    .tail = ""};
+    .groups = OPTIONS_CHANGE};
 
 typedef struct examine_options {
     common_options common;

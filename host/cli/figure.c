@@ -33,7 +33,6 @@ static const command_usage plot_usage = {
         "titles\n"
         "\n"
         "Crosses at the foot of a panel mark events. The shade begins at the trusted time of the run.\n",
-    .tail = "",
     .why = {"", "a run failed", "", ""}};
 
 typedef struct plot_options {
@@ -138,7 +137,6 @@ static const command_usage usage = {
         "\n"
         "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
         "  --data NAME=FILE     use these records as NAME instead of a run (repeatable)\n",
-    .tail = "",
     .why = {"", "a run failed", "", ""}};
 
 typedef struct figure_options {

@@ -21,10 +21,8 @@
 
 enum { LIGHT_EXPECTED = 100 };
 
-/* The expected value of each field, or "". */
-typedef struct light_expected {
-    char of[LIGHT_FIELDS][LIGHT_EXPECTED];
-} light_expected;
+/* The expected value of a field, or "". */
+typedef char light_expected[LIGHT_EXPECTED];
 
 typedef enum light_verdict {
     LIGHT_EQUAL,
@@ -62,9 +60,9 @@ static int run_scene(const char *name, light_expected *e) {
     if (code == EXIT_DONE) {
         void *run = engine_float.start(made.image);
         const wh_status status = loop_steps(&engine_float, run, made.image->steps);
-        (void)snprintf(e->of[light_field("model.", name)], LIGHT_EXPECTED, "0x%016" PRIx64,
+        (void)snprintf(e[light_field("model.", name)], LIGHT_EXPECTED, "0x%016" PRIx64,
                        made.image->hash);
-        (void)snprintf(e->of[light_field("hash.", name)], LIGHT_EXPECTED,
+        (void)snprintf(e[light_field("hash.", name)], LIGHT_EXPECTED,
                        "0x%016" PRIx64 " %" PRIu64 " steps, %s", engine_float.hash(run),
                        engine_float.steps(run), wh_status_text(status));
         engine_float.stop(run);
@@ -84,22 +82,19 @@ static int light_expect(light_expected *e) {
     static const char *const known[][2] = {
         {"version", WH_VERSION}, {"clock", "crystal"}, {"stop", "released"}, {"selftest", "good"}};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        (void)snprintf(e->of[light_field(known[i][0], "")], LIGHT_EXPECTED, "%s", known[i][1]);
+        (void)snprintf(e[light_field(known[i][0], "")], LIGHT_EXPECTED, "%s", known[i][1]);
     }
-    (void)snprintf(e->of[light_field("period_us", "")], LIGHT_EXPECTED, "%d %d", PERIOD_LEAST_US,
+    (void)snprintf(e[light_field("period_us", "")], LIGHT_EXPECTED, "%d %d", PERIOD_LEAST_US,
                    PERIOD_MOST_US);
     return code;
 }
 
-static bool may_be_none(const char *name) {
-    return strncmp(name, "model.", 6) != 0 && strncmp(name, "hash.", 5) != 0 &&
-           strcmp(name, "version") != 0 && strcmp(name, "board") != 0 &&
-           strcmp(name, "compiler") != 0;
-}
-
 static light_verdict light_judge(int field, const char *value, const char *wanted) {
     const char *name = light_names[field];
-    if (light_is_none(value) && may_be_none(name)) {
+    const bool may_be_none = strncmp(name, "model.", 6) != 0 && strncmp(name, "hash.", 5) != 0 &&
+                             strcmp(name, "version") != 0 && strcmp(name, "board") != 0 &&
+                             strcmp(name, "compiler") != 0;
+    if (light_is_none(value) && may_be_none) {
         return LIGHT_NONE;
     }
     if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
@@ -180,11 +175,7 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
                 page);
         good = false;
     } else {
-        FILE *out = atomic_file_open(page);
-        if (out != NULL) {
-            fprintf(out, "%s%s", text, row);
-        }
-        good = out != NULL && atomic_file_close(out, page, true);
+        good = atomic_file_print(page, "%s%s", text, row);
         if (good) {
             printf("row: appended to %s\n", page);
         }
@@ -291,7 +282,7 @@ static int expect_emulated(const firstlight_options *o, light_expected *e) {
     const int code = read_record(o, o->emulated, &emulated);
     for (int i = 0; code == EXIT_DONE && i < LIGHT_FIELDS; i++) {
         const bool hash = strncmp(light_names[i], "hash.", 5) == 0;
-        if (hash && strcmp(emulated.value[i], e->of[i]) != 0) {
+        if (hash && strcmp(emulated.value[i], e[i]) != 0) {
             return say_wrong(o->emulated, "the emulator's record belongs to other scenes",
                              "make the record again: make firstlight BOARD=...");
         }
@@ -299,7 +290,7 @@ static int expect_emulated(const firstlight_options *o, light_expected *e) {
     static const char *const same[] = {"board", "compiler", "stack"};
     for (int i = 0; code == EXIT_DONE && i < 3; i++) {
         const int field = light_field(same[i], "");
-        (void)snprintf(e->of[field], LIGHT_EXPECTED, "%s", emulated.value[field]);
+        (void)snprintf(e[field], LIGHT_EXPECTED, "%s", emulated.value[field]);
     }
     return code;
 }
@@ -325,9 +316,9 @@ static void show(const light *l, const light_expected *e, const light_verdict *f
     printf("%-29s %-8s %s\n", "field", "verdict", "record");
     for (int i = 0; i < LIGHT_FIELDS; i++) {
         printf("%-29s %-8s %s\n", light_names[i], verdict_words[found[i]], l->value[i]);
-        if (found[i] == LIGHT_DIFFERS || (found[i] == LIGHT_TOLD && e->of[i][0] != '\0')) {
+        if (found[i] == LIGHT_DIFFERS || (found[i] == LIGHT_TOLD && e[i][0] != '\0')) {
             printf("%-29s %-8s %s\n", "", found[i] == LIGHT_DIFFERS ? "expected" : "emulator",
-                   e->of[i]);
+                   e[i]);
         }
     }
 }
@@ -343,16 +334,16 @@ static bool keep(const char *name, const light *l) {
 static int compare(void *options) {
     const firstlight_options *o = options;
     static light l;
-    static light_expected e;
+    static light_expected e[LIGHT_FIELDS];
     light_verdict found[LIGHT_FIELDS];
     char names[600];
     if (!port_has_speed(o->baud)) {
         return say_wrong("whirl firstlight", "--baud: this speed is not supported", PORT_SPEEDS);
     }
-    int code = light_expect(&e);
-    code = code == EXIT_DONE && o->emulated != NULL ? expect_emulated(o, &e) : code;
+    int code = light_expect(e);
+    code = code == EXIT_DONE && o->emulated != NULL ? expect_emulated(o, e) : code;
     if (o->board != NULL) {
-        (void)snprintf(e.of[light_field("board", "")], LIGHT_EXPECTED, "%s", o->board);
+        (void)snprintf(e[light_field("board", "")], LIGHT_EXPECTED, "%s", o->board);
     }
     code = code == EXIT_DONE ? read_record(o, o->source, &l) : code;
     if (code != EXIT_DONE || (o->keep != NULL && !keep(o->keep, &l))) {
@@ -360,10 +351,10 @@ static int compare(void *options) {
     }
     int equal = 0;
     for (int i = 0; i < LIGHT_FIELDS; i++) {
-        found[i] = light_judge(i, l.value[i], e.of[i]);
+        found[i] = light_judge(i, l.value[i], e[i]);
         equal += found[i] == LIGHT_EQUAL && strncmp(light_names[i], "hash.", 5) == 0;
     }
-    show(&l, &e, found);
+    show(&l, e, found);
     printf("hashes: %d of %d equal\n", equal, LIGHT_SCENES);
     list_of(found, LIGHT_NONE, names, sizeof names);
     printf("none: %s\n", names[0] != '\0' ? names : "-");

@@ -11,43 +11,44 @@
 #include "host/lang/units.h"
 
 /* === the hard cases ================================================================================ */
-/* X(case, scenes, limit of the theory, verdict). A case is a section of docs/hard_cases.md. Scenes are files of
- * docs/hard or built-in scenes, separated by blanks. */
-
-#define HARD_ROWS(X) \
-    X("Chaos", "thomson_a", "each further digit adds the same trusted time", \
-      "warning, with the time until which the run is right") \
-    X("The pole and the origin", "polar", "no fixed step resolves every distance", \
-      "right, or a warning that names a step") \
-    X("Mass matrices that are nearly singular", "disc masses soft_spring", \
-      "no correct digit at a ratio of 1e16 (in float 1e7)", "right, or a warning, or an error") \
-    X("Dead centres", "dead_centre", "with rigid bodies a redundant load is undetermined", \
-      "right") \
-    X("Springs too stiff for the step", "stiff_spring", \
-      "Runge-Kutta 4 is unstable above h w = 2.83", "warning before 1 % of the energy is lost") \
-    X("A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is random", \
-      "warning; right with a stop") \
-    X("Resonance without damping", "resonance", "relative phase error (h w)^4/120", \
-      "right: order 4") \
-    X("A motor too weak for a resonance", "sommerfeld", "none, except the error of the method", \
-      "right") \
-    X("Friction under a load that vanishes", "pulsating_load", \
-      "a step across a kink is of second order", "right, of order 4: steps end at kinks") \
-    X("Bounces that end", "moving_floor", "infinitely many impacts happen in a finite time", \
-      "right") \
-    X("Contacts that repeat each other", "redundant", "only the moment of release is determined", \
-      "right") \
-    X("Newton's cradle", "cradle", "with rigid bodies the sequence of impacts is undetermined", \
-      "right") \
-    X("Rotation", "rotor", "the direction is ambiguous at half a turn per step", \
-      "right, or a warning, or an error") \
-    X("Very long runs", "long", "no explicit step keeps the energy", "right with --stabilized") \
-    X("Very large and very small numbers", "scales", "float has no numbers below 1.4e-45", \
-      "right, or a warning, or an error") \
-    X("Inputs that jump", "jump", "an input is constant within a step", \
-      "right if it jumps between steps or in a `when`") \
-    X("Poles that a step jumps over", "used_up", \
-      "no error estimate sees the motion between evaluations", "warning, and not trusted")
+/* A case is a section of docs/hard_cases.md. Scenes are files of docs/hard or built-in scenes, separated by blanks. */
+static const struct {
+    const char *name, *scenes, *limit, *verdict;
+} hard_rows[] = {
+    {"case", "scenes", "limit of the theory", "verdict"},
+    {"Chaos", "thomson_a", "each further digit adds the same trusted time",
+     "warning, with the time until which the run is right"},
+    {"The pole and the origin", "polar", "no fixed step resolves every distance",
+     "right, or a warning that names a step"},
+    {"Mass matrices that are nearly singular", "disc masses soft_spring",
+     "no correct digit at a ratio of 1e16 (in float 1e7)", "right, or a warning, or an error"},
+    {"Dead centres", "dead_centre", "with rigid bodies a redundant load is undetermined", "right"},
+    {"Springs too stiff for the step", "stiff_spring", "Runge-Kutta 4 is unstable above h w = 2.83",
+     "warning before 1 % of the energy is lost"},
+    {"A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is random",
+     "warning; right with a stop"},
+    {"Resonance without damping", "resonance", "relative phase error (h w)^4/120",
+     "right: order 4"},
+    {"A motor too weak for a resonance", "sommerfeld", "none, except the error of the method",
+     "right"},
+    {"Friction under a load that vanishes", "pulsating_load",
+     "a step across a kink is of second order", "right, of order 4: steps end at kinks"},
+    {"Bounces that end", "moving_floor", "infinitely many impacts happen in a finite time",
+     "right"},
+    {"Contacts that repeat each other", "redundant", "only the moment of release is determined",
+     "right"},
+    {"Newton's cradle", "cradle", "with rigid bodies the sequence of impacts is undetermined",
+     "right"},
+    {"Rotation", "rotor", "the direction is ambiguous at half a turn per step",
+     "right, or a warning, or an error"},
+    {"Very long runs", "long", "no explicit step keeps the energy", "right with --stabilized"},
+    {"Very large and very small numbers", "scales", "float has no numbers below 1.4e-45",
+     "right, or a warning, or an error"},
+    {"Inputs that jump", "jump", "an input is constant within a step",
+     "right if it jumps between steps or in a `when`"},
+    {"Poles that a step jumps over", "used_up",
+     "no error estimate sees the motion between evaluations", "warning, and not trusted"},
+};
 
 /* === the command ============================================================================== */
 
@@ -66,8 +67,7 @@ static const command_usage usage = {
         "  --units              every unit: its name, its SI unit and its value in that SI unit, with tabs\n"
         "                       between them\n"
         "  --hard               the hard cases of docs/hard_cases.md, and their results\n"
-        "  --figures            the figures that `whirl figure` draws: name and title\n",
-    .tail = ""};
+        "  --figures            the figures that `whirl figure` draws: name and title\n"};
 
 enum { OUTSIDE = -1 }; /* outside every effect */
 
@@ -149,17 +149,6 @@ static void put_place(const char *kind, const char *name, const mechanism *of, c
     printf("\t%d\t%d\t", first_line, last_line);
 }
 
-/* Prints step and end of a scene. Returns false after an error (reported). */
-static bool put_times(const mechanism *of, const scene *in, diags *errors) {
-    instance *made = instance_make(of, in, NULL, errors);
-    if (made == NULL) {
-        return false;
-    }
-    printf("%.15g\t%.15g\t", made->step_s, made->until_s);
-    instance_free(made);
-    return true;
-}
-
 static bool put_rows(const source_model *from, const mechanism *m) {
     put_place("mechanism", m->name, m, from->file, m->at.line, m->last_line);
     put_effects(m, NULL, false);
@@ -180,9 +169,12 @@ static bool put_rows(const source_model *from, const mechanism *m) {
             put_place("scene", each->name, m, from->file, each->at.line, each->last_line);
             put_effects(m, each->with, each->ledger);
             put_what_is_in_scene(each);
-            if (!put_times(m, each, from->errors)) {
+            instance *made = instance_make(m, each, NULL, from->errors);
+            if (made == NULL) {
                 return false;
             }
+            printf("%.15g\t%.15g\t", made->step_s, made->until_s);
+            instance_free(made);
             put_title(each->title);
         }
     }
@@ -271,12 +263,9 @@ static int list_units(void) {
 
 /* The first table of docs/hard_cases.md. */
 static int list_hard(void) {
-#define HARD_WORDS(name, in, limit, verdict) {name, limit, verdict, in},
-    static const char *const rows[][4] = {{"case", "limit of the theory", "verdict", "scenes"},
-                                          HARD_ROWS(HARD_WORDS)};
-#undef HARD_WORDS
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        printf("%-38s  %-54s  %-43s  %s\n", rows[i][0], rows[i][1], rows[i][2], rows[i][3]);
+    for (size_t i = 0; i < sizeof hard_rows / sizeof hard_rows[0]; i++) {
+        printf("%-38s  %-54s  %-43s  %s\n", hard_rows[i].name, hard_rows[i].limit,
+               hard_rows[i].verdict, hard_rows[i].scenes);
     }
     return EXIT_DONE;
 }

@@ -13,6 +13,7 @@
 #include "host/base/alloc.h"
 #include "host/base/spelling.h"
 #include "host/derive/lagrange.h"
+#include "host/engine/start.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
 #include "host/show/show.h"
@@ -24,21 +25,18 @@ static char *realpath(const char *path, char *resolved) {
 }
 #endif
 
-static bool one_path(const char *path, const char *other_path) {
-    char *resolved = realpath(path, NULL);
-    char *other = realpath(other_path, NULL);
-    const bool one = resolved != NULL && other != NULL && strcmp(resolved, other) == 0;
-    free(resolved);
-    free(other);
-    return one;
-}
-
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path) {
     if (one->st_ino != 0 && other->st_ino != 0) {
         return one->st_dev == other->st_dev && one->st_ino == other->st_ino;
     }
-    return one_path(path, other_path);
+    char *resolved = realpath(path, NULL);
+    char *other_resolved = realpath(other_path, NULL);
+    const bool same =
+        resolved != NULL && other_resolved != NULL && strcmp(resolved, other_resolved) == 0;
+    free(resolved);
+    free(other_resolved);
+    return same;
 }
 
 /* Neither path exists: would they name one file, with the same name in the same folder? */
@@ -92,12 +90,6 @@ typedef struct sought {
     size_t mechanism_length;
     const char *name; /* name of a scene or a mechanism */
 } sought;
-
-static sought sought_of(const char *target) {
-    const char *colon = strrchr(target, ':');
-    return colon == NULL ? (sought){NULL, 0, target}
-                         : (sought){target, (size_t)(colon - target), colon + 1};
-}
 
 static bool is_mechanism(const sought *w, const mechanism *m) {
     return w->mechanism == NULL || (strlen(m->name) == w->mechanism_length &&
@@ -170,7 +162,9 @@ bool source_builtin(source_model *s, const struct builtin_model *model) {
 
 int source_find(source_model *s, const struct builtin_model *models, size_t count,
                 const char *target) {
-    const sought w = sought_of(target);
+    const char *colon = strrchr(target, ':');
+    const sought w = colon == NULL ? (sought){NULL, 0, target}
+                                   : (sought){target, (size_t)(colon - target), colon + 1};
     source_model *each = alloc((int64_t)count, sizeof *each);
     size_t hits = 0;
     size_t hit = 0;
@@ -246,10 +240,7 @@ static bool file_exists(const char *path) {
 /* Length of FILE in FILE:NAME, or of the whole target. */
 static size_t file_part(const char *target) {
     const char *colon = strrchr(target, ':');
-    if (colon == NULL || file_exists(target)) {
-        return strlen(target);
-    }
-    return (size_t)(colon - target);
+    return colon == NULL || file_exists(target) ? strlen(target) : (size_t)(colon - target);
 }
 
 char *source_file(const char *target) {
@@ -275,8 +266,7 @@ int source_open(source_model *s, const char *target) {
     }
     *s = (source_model){.path = path, .errors = diags_new()};
     s->file = strcmp(path, "-") == 0 ? "<standard input>" : path;
-    s->name = alloc_copy(target[length] == ':' ? target + length + 1 : "",
-                         target[length] == ':' ? strlen(target + length + 1) : 0);
+    s->name = alloc_words("%s", target[length] == ':' ? target + length + 1 : "");
     size_t bytes;
     s->text = read_all(path, MODEL_BYTES_MAX, &bytes);
     if (s->text == NULL) {
@@ -385,6 +375,13 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->contacts = contacts_of(made->equations, request->comment);
     }
     return made->image == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
+}
+
+bool image_can_start(const image *im, const engine_kind *kind, diags *errors) {
+    const bool can =
+        start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors);
+    diags_flush(errors, stderr);
+    return can;
 }
 
 void say_float_range(const image *im) {

@@ -7,6 +7,7 @@
 
 #include "host/base/exit.h"
 #include "host/derive/image_make.h"
+#include "host/engine/engine.h"
 #include "host/lang/builtin.h"
 #include "host/lang/model.h"
 
@@ -54,6 +55,7 @@ typedef struct load_request {
     image_settings settings;
     image_use use;
     bool hints;          /* print a hint for a valid model that could be written better */
+    bool scene;          /* target_load(): without a name, a scene rather than the mechanism */
     bool conserve;       /* compute the coordinates of `conserve` from their momentum */
     const char *comment; /* prefix of each line in `contacts`; NULL: no such lines */
 } load_request;
@@ -68,6 +70,8 @@ typedef struct loaded {
 /* Derives the equations of an instance and makes its image. Returns an exit status (reported); call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_request *request);
+/* Can a run start with the image's method and this number type? If not, reports the reasons. */
+bool image_can_start(const image *im, const engine_kind *kind, diags *errors);
 /* Warns of values that float cannot represent. */
 void say_float_range(const image *im);
 void unload(loaded *made);

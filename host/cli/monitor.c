@@ -202,13 +202,6 @@ static void take_text(monitor *m, const char *line) {
     }
 }
 
-static void take_frame(monitor *m) {
-    if (m->line.is_line && !m->begun) {
-        return; /* a frame from before the recording */
-    }
-    recording_frame(&m->recording, &m->schema, &m->wire.frame);
-}
-
 static void take_bytes(monitor *m, const uint8_t *bytes, int count) {
     if (m->file[RAW] != NULL) {
         fwrite(bytes, 1, (size_t)count, m->file[RAW]);
@@ -216,7 +209,11 @@ static void take_bytes(monitor *m, const uint8_t *bytes, int count) {
     for (int i = 0; i < count; i++) {
         switch (wire_take(&m->wire, bytes[i])) {
         case WIRE_TEXT: take_text(m, m->wire.line); break;
-        case WIRE_FRAME: take_frame(m); break;
+        case WIRE_FRAME:
+            if (!m->line.is_line || m->begun) { /* else the frame is from before the recording */
+                recording_frame(&m->recording, &m->schema, &m->wire.frame);
+            }
+            break;
         case WIRE_NOTHING: break;
         }
     }
@@ -327,11 +324,6 @@ static bool close_outputs(monitor *m) {
     return good;
 }
 
-static bool lost_any(const monitor *m) {
-    const recording_counts *c = &m->recording.counts;
-    return c->lost > 0 || c->strange > 0 || m->wire.damaged > 0;
-}
-
 static void tell(const monitor *m) {
     const recording_counts *c = &m->recording.counts;
     fprintf(
@@ -351,27 +343,22 @@ static void tell(const monitor *m) {
     }
 }
 
-/* Reports that samples were to be recorded, but the rig sent none. */
+/* False, reported: samples were to be recorded, but the rig sent none; or a file was not read to its end. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {
         records = records || (i != RAW && m->o->output[i] != NULL);
     }
     const bool silent = m->live && (!m->met || m->dialogue.rate_refused);
-    if (!records || !silent || m->recording.counts.samples > 0) {
-        return true;
+    if (records && silent && m->recording.counts.samples == 0) {
+        return options_fail("monitor", "nothing was recorded: %s%s", m->o->port,
+                            m->met ? " cannot send samples at this --rate" : " has not answered");
     }
-    return options_fail("monitor", "nothing was recorded: %s%s", m->o->port,
-                        m->met ? " cannot send samples at this --rate" : " has not answered");
-}
-
-/* Reports a file that could not be read to its end. */
-static bool was_read(const monitor *m) {
-    if (m->live || m->line.failed == 0) {
-        return true;
+    const bool whole = m->live || m->line.failed == 0;
+    if (!whole) {
+        fprintf(stderr, "%s: error: reading stopped: %s\n", m->o->port, strerror(m->line.failed));
     }
-    fprintf(stderr, "%s: error: reading stopped: %s\n", m->o->port, strerror(m->line.failed));
-    return false;
+    return whole;
 }
 
 static int run(void *options) {
@@ -399,7 +386,7 @@ static int run(void *options) {
     if (m->open && m->line.is_line) {
         (void)port_write(&m->line, "tel off\n", 8);
     }
-    bool good = has_source(m) && was_read(m);
+    bool good = has_source(m);
     port_close(&m->line);
     good = good && (m->o->output[PLOT] == NULL ||
                     recording_plot(&m->recording, &m->schema, m->o->output[PLOT]));
@@ -408,7 +395,8 @@ static int run(void *options) {
         tell(m);
     }
     good = close_outputs(m) && good;
-    if (m->o->strict && lost_any(m)) {
+    const recording_counts *c = &m->recording.counts;
+    if (m->o->strict && (c->lost > 0 || c->strange > 0 || m->wire.damaged > 0)) {
         fputs("whirl monitor: error: data were lost (--strict)\n", stderr);
         good = false;
     }

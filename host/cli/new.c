@@ -16,7 +16,6 @@ static const command_usage usage = {
         "\n"
         "Writes NAME.whirl: a pendulum on a cart, with a comment on every line. Change it into your own\n"
         "mechanism. Whirl never overwrites an existing file.\n",
-    .tail = "",
     .why = {"", "the file was not written completely",
             "NAME is not a valid name, or NAME.whirl exists"}};
 

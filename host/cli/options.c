@@ -63,32 +63,25 @@ static void put_word(FILE *out, const char *word, int *column) {
     *column += fprintf(out, " %s", word);
 }
 
-static void name_them(FILE *out, unsigned groups) {
-    int column = fprintf(out, " ");
-    for (int i = 0; i < OPTIONS; i++) {
-        if ((option_rows[i].group & groups) != 0) {
-            put_word(out, option_rows[i].word, &column);
-        }
-    }
-    put_word(out, "(as for `whirl run`)", &column);
-    fputc('\n', out);
-}
-
 void options_usage(FILE *out, const command_usage *usage) {
     char methods[METHODS_TEXT_SIZE];
+    const bool named = !usage->described && usage->groups != 0;
     fputs(usage->head, out);
-    if (usage->described) {
-        for (int i = 0; i < OPTIONS; i++) {
-            const option_row *row = &option_rows[i];
-            if ((row->group & usage->groups) != 0) {
-                options_describe(out, row->word, row->value,
-                                 i == OPTION_METHOD ? methods_in_help(methods) : row->text);
-            }
+    int column = named ? fprintf(out, " ") : 0;
+    for (int i = 0; i < OPTIONS; i++) {
+        const option_row *row = &option_rows[i];
+        if ((row->group & usage->groups) != 0 && named) {
+            put_word(out, row->word, &column);
+        } else if ((row->group & usage->groups) != 0) {
+            options_describe(out, row->word, row->value,
+                             i == OPTION_METHOD ? methods_in_help(methods) : row->text);
         }
-    } else if (usage->groups != 0) {
-        name_them(out, usage->groups);
     }
-    fputs(usage->tail, out);
+    if (named) {
+        put_word(out, "(as for `whirl run`)", &column);
+        fputc('\n', out);
+    }
+    fputs(usage->tail != NULL ? usage->tail : "", out);
     if (usage->why[0] != NULL) {
         exit_describe(out, usage->why);
     }
@@ -137,30 +130,25 @@ static const char *value_of(int count, char **words, int *at, const char *name, 
                             bool repeats, bool *bad) {
     const size_t length = strlen(name);
     const char *word = words[*at];
+    if (is_bare ? strcmp(word, name) != 0 : !options_is(word, name)) {
+        return NULL;
+    }
+    ++*at;
     if (is_bare) {
-        return strcmp(word, name) == 0 ? words[(*at)++] : NULL;
+        return word;
     }
-    if (!options_is(word, name)) {
-        return NULL;
-    }
-    if (!repeats && !is_new(count, words, *at, name)) {
+    if (!repeats && !is_new(count, words, *at - 1, name)) {
         *bad = true;
-        ++*at;
-        return NULL;
-    }
-    if (word[length] == '=') {
-        ++*at;
+    } else if (word[length] == '=') {
         return word + length + 1;
-    }
-    if (*at + 1 >= count || strncmp(words[*at + 1], "--", 2) == 0) { /* an option is no value */
+    } else if (*at < count && strncmp(words[*at], "--", 2) != 0) { /* an option is no value */
+        return words[(*at)++];
+    } else {
         fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
                 name);
         *bad = true;
-        ++*at;
-        return NULL;
     }
-    *at += 2;
-    return words[*at - 1];
+    return NULL;
 }
 
 static void push(const char *const **list, int *count, const char *text) {
@@ -249,6 +237,12 @@ bool options_fail(const char *command, const char *format, ...) {
 }
 
 bool options_is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
+
+bool options_json_is_alone(const char *command, bool json, const char *csv) {
+    return !json || !options_is_standard(csv) ||
+           options_fail(command,
+                        "--json and rows cannot share standard output\nhint: --csv rows.csv");
+}
 
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count) {
@@ -344,12 +338,6 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     return true;
 }
 
-/* Does the command accept fixed point? Sweeps and prices do not search for ranges. */
-static bool knows_fixed(const char *command) {
-    return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
-           strcmp(command, "trust") == 0;
-}
-
 #define CHOOSE(what, rows, count, type, setting) \
     chosen = options_choose(command, what, value, rows, sizeof(rows)[0], count); \
     to->integration.setting = chosen < 0 ? to->integration.setting : (type)chosen; \
@@ -362,6 +350,9 @@ static bool take(common_option which, const char *command, const char *value, co
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
     overrides *c = &to->changes;
     const char *word = option_rows[which].word;
+    /* sweeps and prices do not search for the ranges of fixed point */
+    const bool knows_fixed = strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
+                             strcmp(command, "trust") == 0;
     int chosen;
     switch (which) {
     case OPTION_SET: push(&c->sets, &c->set_count, value); break;
@@ -382,7 +373,7 @@ static bool take(common_option which, const char *command, const char *value, co
     case OPTION_CELLS: return take_cells(command, value, &to->integration.cells);
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
-                                (int)(sizeof numbers / sizeof numbers[0]) - !knows_fixed(command));
+                                (int)(sizeof numbers / sizeof numbers[0]) - !knows_fixed);
         to->number = chosen < 0 ? to->number : numbers[chosen].kind;
         return chosen >= 0;
     }
@@ -541,15 +532,6 @@ static bool output_is_good(const target_reader *r, const own_option *output, con
            options_can_write(r->command, output->word, output->file, *output->text);
 }
 
-static bool outputs_are_good(const target_reader *r, const char *target) {
-    for (const own_option *o = r->table; o != NULL && o->word != NULL; o++) {
-        if (o->file > FILE_READ && *o->text != NULL && !output_is_good(r, o, target)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 bool target_read(const target_reader *r, int count, char **words, common_options *common,
                  const char **target) {
     bool bad = false;
@@ -564,7 +546,10 @@ bool target_read(const target_reader *r, int count, char **words, common_options
             bad = !take_target(r, words[at++], target);
         }
     }
-    return !bad && outputs_are_good(r, *target);
+    for (const own_option *o = r->table; !bad && o != NULL && o->word != NULL; o++) {
+        bad = o->file > FILE_READ && *o->text != NULL && !output_is_good(r, o, *target);
+    }
+    return !bad;
 }
 
 int target_command(const target_reader *r, int count, char **words, common_options *common,
@@ -596,7 +581,7 @@ int target_load(loaded *made, source_model *from, const common_options *common,
     const scene *in;
     *made = (loaded){0};
     request.settings = common->integration;
-    const bool one = request.use == IMAGE_TO_WRITE || from->model->scene_count == 1;
+    const bool one = request.scene || from->model->scene_count == 1;
     const int code = source_pick(from, one, &of, &in);
     return code == EXIT_DONE ? load(made, from, of, in, &common->changes, &request) : code;
 }

@@ -69,9 +69,9 @@ typedef enum option_group {
 /* A command's help text. */
 typedef struct command_usage {
     const char *head;
-    unsigned groups; /* groups of options in the help text */
-    bool described;  /* a line for each option; else only words, and a reference to `whirl run` */
-    const char *tail;
+    unsigned groups;  /* groups of options in the help text */
+    bool described;   /* a line for each option; else only words, and a reference to `whirl run` */
+    const char *tail; /* or NULL */
     const char *why[EXITS]; /* meaning of each exit status (host/base/exit.h); all NULL: omitted */
 } command_usage;
 
@@ -129,6 +129,9 @@ bool options_fail(const char *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Is this output, which may be NULL, standard output? */
 bool options_is_standard(const char *file);
+
+/* Reports --json with rows of --csv that go to standard output, too, and returns false. */
+bool options_json_is_alone(const char *command, bool json, const char *csv);
 
 /* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
  * its word. If there is none, reports the possible words and returns -1. */
@@ -195,7 +198,7 @@ typedef struct target_reader {
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* load() of the named target. Without a name: the only scene; else the mechanism, if it is not to be written. */
+/* load() of the named target. Without a name: the file's only scene, or else, unless request.scene, its only mechanism. */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 

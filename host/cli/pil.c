@@ -8,7 +8,6 @@
 #include "commands.h"
 #include "host/base/alloc.h"
 #include "host/cli/load.h"
-#include "host/engine/start.h"
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 #include "host/os/port.h"
@@ -165,9 +164,7 @@ static bool go_together(const pil_options *o) {
 
 /* The boards are compiled in: the program must know them without the source tree. */
 static bool is_known_board(pil_options *o) {
-    static const struct {
-        const char *word;
-    } boards[] = {{"mps2-an386"}, {"mps2-an385"}, {"mps2-an500"}, {"mps2-an505"}};
+    static const char *const boards[] = {"mps2-an386", "mps2-an385", "mps2-an500", "mps2-an505"};
     return o->board == NULL || guest_machine_of(o->board, o->machine) ||
            options_choose("pil", "board", o->board, boards, sizeof boards[0],
                           (int)(sizeof boards / sizeof boards[0])) >= 0;
@@ -185,19 +182,16 @@ static lockstep_request request_of(const pil_options *o) {
                               .instruction_s = o->cycles / o->clock_Hz};
 }
 
-static int code_of(const lockstep_report *r) {
+static int tell(const pil_options *o, const lockstep_request *request, const image *im,
+                const lockstep_report *r) {
     static const int codes[] = {[LOCKSTEP_DONE] = EXIT_DONE,
                                 [LOCKSTEP_LET_GO] = EXIT_DONE,
                                 [LOCKSTEP_BAD] = EXIT_BAD_INPUT,
                                 [LOCKSTEP_FAILED] = EXIT_RUN_FAILED,
                                 [LOCKSTEP_DIFFERENT] = EXIT_RUN_FAILED,
                                 [LOCKSTEP_STOPPED] = EXIT_INTERRUPTED};
-    return r->end == LOCKSTEP_DONE && r->status.status != 0 ? EXIT_RUN_FAILED : codes[r->end];
-}
-
-static int tell(const pil_options *o, const lockstep_request *request, const image *im,
-                const lockstep_report *r) {
-    if (r->end == LOCKSTEP_DONE && r->status.status != 0) {
+    const bool failed = r->end == LOCKSTEP_DONE && r->status.status != 0;
+    if (failed) {
         fprintf(stderr, "whirl pil: the firmware ended with status %d\n", r->status.status);
     }
     if (r->end == LOCKSTEP_STOPPED) {
@@ -206,12 +200,13 @@ static int tell(const pil_options *o, const lockstep_request *request, const ima
     if (!o->quiet && r->end != LOCKSTEP_BAD) {
         pil_print(options_is_standard(o->csv) ? stderr : stdout, request, im, r);
     }
-    const int code = code_of(r);
+    const int code = failed ? EXIT_RUN_FAILED : codes[r->end];
     return code == EXIT_DONE && !fault_all_occurred(&o->faults) ? EXIT_RUN_FAILED : code;
 }
 
-/* Opens the serial line of --port; without --port, does nothing. */
+/* Opens the serial line of --port; without --port, sets line->file to -1, and port_close() does nothing. */
 static bool open_line(const pil_options *o, lockstep_request *request, port *line) {
+    line->file = -1;
     if (o->port == NULL) {
         return true;
     }
@@ -230,19 +225,11 @@ static bool open_line(const pil_options *o, lockstep_request *request, port *lin
     return true;
 }
 
-static void close_line(const pil_options *o, port *line) {
-    if (o->port != NULL) {
-        port_close(line);
-    }
-}
-
 static int run_image(const pil_options *o, const source_model *from, const image *im,
                      lockstep_request *request, double every_s) {
     lockstep_report report;
     recorded rows;
-    if (!start_has_method(im, im->settings.method, from->errors) ||
-        !start_is_possible(im, &engine_double, from->errors)) {
-        diags_flush(from->errors, stderr);
+    if (!image_can_start(im, &engine_double, from->errors)) {
         return EXIT_BAD_INPUT;
     }
     request->tape = o->tape != NULL ? atomic_file_open_in_place(o->tape) : NULL;
@@ -259,7 +246,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     if (open) {
         interrupts_catch_waiting();
         lockstep_run(request, im, &report);
-        close_line(o, &line);
+        port_close(&line);
     }
     const bool written = recorded_close(&rows);
     const bool taped = atomic_file_close(request->tape, o->tape, true);
@@ -273,20 +260,8 @@ static int run_image(const pil_options *o, const source_model *from, const image
     return tell(o, request, im, &report);
 }
 
-/* Faults may change parameters. Their values come after those of --set, and so replace them. */
-static int load_plant(pil_options *o, source_model *from, const mechanism *of, const scene *in,
-                      loaded *made) {
-    overrides *changes = &o->common.changes;
-    for (unsigned i = 0; i < o->faults.count; i++) {
-        options_set(&o->common, fault_parameter(&o->faults, i));
-    }
-    changes->step = changes->step != NULL ? changes->step : FINE_STEP;
-    const load_request what = {
-        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
-    return load(made, from, of, in, changes, &what);
-}
-
 static int run_source(pil_options *o, source_model *from) {
+    overrides *changes = &o->common.changes;
     const mechanism *of;
     const scene *in;
     lockstep_request request = request_of(o);
@@ -307,7 +282,14 @@ static int run_source(pil_options *o, source_model *from) {
     const tap faults = fault_tap(&o->faults);
     request.taps = &faults;
     request.tap_count = 1;
-    code = load_plant(o, from, of, in, &made);
+    /* faults may change parameters; their values come after those of --set, and so replace them */
+    for (unsigned i = 0; i < o->faults.count; i++) {
+        options_set(&o->common, fault_parameter(&o->faults, i));
+    }
+    changes->step = changes->step != NULL ? changes->step : FINE_STEP;
+    const load_request what = {
+        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
+    code = load(&made, from, of, in, changes, &what);
     if (code == EXIT_DONE) {
         code = run_image(o, from, made.image, &request, every_s);
     }
@@ -324,7 +306,7 @@ static int replay(const pil_options *o) {
     }
     interrupts_catch_waiting();
     lockstep_replay(&request, o->replay, &report);
-    close_line(o, &line);
+    port_close(&line);
     return tell(o, &request, NULL, &report);
 }
 

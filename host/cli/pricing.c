@@ -151,34 +151,20 @@ static bool read_error(pricing *p) {
            pricing_quantity(command, p->of, p->quantity, "--error", text, dim_none(), &p->error_si);
 }
 
-static bool read_effort(pricing *p) {
-    const char *text = p->value[PRICING_EFFORT];
-    p->effort = EFFORT;
-    return text == NULL || options_number(p->command, "--effort", text, EFFORT_LEAST, EFFORT_MOST,
-                                          "a number of operations: --effort 1e10", &p->effort);
-}
-
 static bool read_methods(pricing *p) {
     const char *at = p->value[PRICING_METHOD];
     const char *words[WH_METHODS + 1] = {[WH_METHODS] = "all"};
     for (int i = 0; i < WH_METHODS; i++) {
         words[i] = wh_methods[i].word;
     }
-    while (at != NULL) {
-        const size_t length = strcspn(at, ",");
-        char *word = alloc_trimmed(at, length);
-        const int chosen =
-            options_choose(p->command, "method", word, words, sizeof words[0], WH_METHODS + 1);
-        free(word);
+    int chosen = 0;
+    for (char *word; chosen >= 0 && (word = alloc_entry(&at)) != NULL; free(word)) {
+        chosen = options_choose(p->command, "method", word, words, sizeof words[0], WH_METHODS + 1);
         for (int m = 0; m < WH_METHODS; m++) {
             p->method[m] = p->method[m] || chosen == m || chosen == WH_METHODS;
         }
-        if (chosen < 0) {
-            return false;
-        }
-        at = at[length] == ',' ? at + length + 1 : NULL;
     }
-    return true;
+    return chosen >= 0;
 }
 
 /* The requested table: on all processors, with progress on a terminal. */
@@ -272,8 +258,13 @@ int pricing_open(pricing *p) {
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(p->typed);
     p->board = pricing_board(p->command, p->value[PRICING_BOARD]);
-    if (p->board == NULL || !read_effort(p) || !read_methods(p) || !read_error(p) ||
-        !read_ranges(p)) {
+    const char *effort = p->value[PRICING_EFFORT];
+    p->effort = EFFORT;
+    if (p->board == NULL ||
+        (effort != NULL &&
+         !options_number(p->command, "--effort", effort, EFFORT_LEAST, EFFORT_MOST,
+                         "a number of operations: --effort 1e10", &p->effort)) ||
+        !read_methods(p) || !read_error(p) || !read_ranges(p)) {
         return EXIT_BAD_INPUT;
     }
     p->scene = pricing_scene_new(p->of, p->in, &p->changes, &p->grid, p->from.errors);
@@ -409,16 +400,11 @@ static int price_scene(void *options) {
     if (opened != EXIT_DONE) {
         return opened;
     }
-    const char *csv = p->value[PRICING_CSV];
     const bool measure = p->value[PRICING_MEASURE] != NULL;
     const table_request request = request_of(p);
-    if (p->value[PRICING_JSON] != NULL && options_is_standard(csv)) {
-        fputs("whirl price: error: --json and rows cannot share standard output\n"
-              "hint: --csv rows.csv\n",
-              stderr);
-        return EXIT_BAD_INPUT;
-    }
-    if (measure && !can_measure(p)) {
+    const bool is_json = p->value[PRICING_JSON] != NULL;
+    if (!options_json_is_alone("price", is_json, p->value[PRICING_CSV]) ||
+        (measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();
@@ -438,7 +424,7 @@ static int price_scene(void *options) {
         code = EXIT_INTERRUPTED;
     } else if (code == EXIT_DONE) {
         code = show(p, made);
-        if (p->value[PRICING_JSON] != NULL) {
+        if (is_json) {
             table_json(stdout, &p->trial, made, code);
         }
     }

@@ -64,10 +64,6 @@ static bool is_own(const pricing_scene *p, int point) {
     return p->grid->count == 0 || (p->has_own && point == p->source.points - 1);
 }
 
-static bool is_start(const axis *a) {
-    return a->symbol->kind == SYM_COORDINATE || a->symbol->kind == SYM_STATE;
-}
-
 static const char *name_of(void *context, int point) {
     pricing_scene *p = context;
     double *value = alloc(p->grid->count, sizeof *value);
@@ -83,7 +79,7 @@ static const char *name_of(void *context, int point) {
         const axis *a = &p->grid->axes[i];
         char *word = shown_assignment(a->symbol, a->primes, number_shortest(value[i], number));
         char *quoted = pricing_quoted(word);
-        fprintf(out, " %s %s", is_start(a) ? "--start" : "--set", quoted);
+        fprintf(out, " %s %s", a->is_start ? "--start" : "--set", quoted);
         free(word);
         free(quoted);
     }

@@ -8,7 +8,6 @@
 #include "commands.h"
 #include "host/base/alloc.h"
 #include "host/cli/load.h"
-#include "host/engine/start.h"
 #include "host/io/plot.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
@@ -180,20 +179,18 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
     return held_out(o, &request, &r);
 }
 
-static int prove_loaded(const prove_options *o, const loaded *made, const mechanism *of,
-                        diags *errors) {
+static int prove_loaded(const prove_options *o, const loaded *made, diags *errors) {
     const image *im = made->image;
     exact_motion *m = NULL;
     /* one run for the range, one to compare with; the tube has its own limit */
     if (effort_suffices("prove", o->effort, step_doubling_operations(im),
                         "use an earlier --until, or a longer --step",
                         "two runs of %.3g steps, before the proof", (double)im->steps) &&
-        start_has_method(im, im->settings.method, errors) &&
-        start_is_possible(im, o->common.number, errors)) {
+        image_can_start(im, o->common.number, errors)) {
         m = exact_motion_make(made->instance, errors);
     }
     double *within = alloc(m != NULL ? m->states : 0, sizeof *within);
-    const bool good = m != NULL && read_within(o, of, m, within, errors);
+    const bool good = m != NULL && read_within(o, made->instance->mechanism, m, within, errors);
     diags_flush(errors, stderr);
     const int code = good ? answer(o, im, m, within) : EXIT_BAD_INPUT;
     free(within);
@@ -203,17 +200,10 @@ static int prove_loaded(const prove_options *o, const loaded *made, const mechan
 
 static int prove_source(source_model *from, void *options) {
     const prove_options *o = options;
-    const mechanism *of;
-    const scene *in;
-    int code = source_pick(from, true, &of, &in);
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    const load_request request = {
-        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
     loaded made;
-    code = load(&made, from, of, in, &o->common.changes, &request);
-    code = code == EXIT_DONE ? prove_loaded(o, &made, of, from->errors) : code;
+    int code = target_load(&made, from, &o->common,
+                           (load_request){.use = IMAGE_TO_RUN, .scene = true, .conserve = true});
+    code = code == EXIT_DONE ? prove_loaded(o, &made, from->errors) : code;
     unload(&made);
     return code;
 }

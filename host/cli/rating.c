@@ -14,12 +14,6 @@
 
 /* --- the rows --------------------------------------------------------------------------------------*/
 
-/* The number type of the command line, else of the board's programs. */
-static const engine_kind *number_of(const rating_request *w) {
-    const bool pc = strcmp(w->board->name, "host") == 0;
-    return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
-}
-
 /* Prints why there are no rows, and the `command` that shows them (NULL: none). */
 static void say_none(FILE *out, const rating_request *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
@@ -151,7 +145,9 @@ static const char *why_none(const rating_request *w, const setting *s,
 }
 
 void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust) {
-    const setting s = {*w->settings, number_of(w)};
+    const bool pc = strcmp(w->board->name, "host") == 0;
+    const engine_kind *programs = pc ? &engine_double : &engine_float; /* of the board */
+    const setting s = {*w->settings, w->number != NULL ? w->number : programs};
     const double trusted = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
     const double steps = number_least(trusted, (double)w->image->steps);
     const char *command;

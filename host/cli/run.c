@@ -11,7 +11,6 @@
 #include "host/check/finding.h"
 #include "host/check/simulate.h"
 #include "host/cli/load.h"
-#include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/os/system.h"
@@ -117,14 +116,15 @@ static bool read_options(int count, char **words, run_options *o) {
 }
 
 /* The interval of --every in steps. Returns false after an error (reported). */
-static bool count_every(const run_options *o, const mechanism *of, const image *im,
-                        uint64_t *steps) {
+static bool count_every(const run_options *o, const loaded *made, uint64_t *steps) {
+    const image *im = made->image;
     double spacing_s;
     *steps = 1;
     if (o->every == NULL) {
         return true;
     }
-    if (!options_time("run", "every", o->every, of, (double)INFINITY, &spacing_s)) {
+    if (!options_time("run", "every", o->every, made->instance->mechanism, (double)INFINITY,
+                      &spacing_s)) {
         return false;
     }
     if (!ratio_count_each(spacing_s, im->step, steps)) {
@@ -142,11 +142,9 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-static int run_image(run_options *o, const source_model *from, const image *im,
-                     rating_request *rated) {
-    if (!start_has_method(im, im->settings.method, from->errors) ||
-        !start_is_possible(im, o->settings.kind, from->errors)) {
-        diags_flush(from->errors, stderr);
+static int run_image(run_options *o, const rating_request *rated) {
+    const image *im = rated->image;
+    if (!image_can_start(im, o->settings.kind, rated->errors)) {
         return EXIT_BAD_INPUT;
     }
     apart_say(stderr, "whirl run", im);
@@ -155,7 +153,6 @@ static int run_image(run_options *o, const source_model *from, const image *im,
     simulation_trust trust;
     const simulation_result result = simulate(im, &o->settings, &trust);
     if (result == SIMULATION_DONE && !o->settings.quiet && !o->settings.json) {
-        rated->image = im;
         rating_say(simulation_summary(&o->settings), rated, &trust);
     }
     if (result == SIMULATION_DONE && trust.fails != 0) {
@@ -178,53 +175,47 @@ static int open_source(run_options *o, source_model *from, char **step, char **c
 
 static int run_target(run_options *o) {
     source_model from = {0};
-    const mechanism *of;
-    const scene *in;
+    loaded made = {0};
+    fixed_plan *plan = NULL;
     char *step = NULL;
     char *chosen = NULL;
     int code = open_source(o, &from, &step, &chosen);
+    o->common.changes.balance = true;
     if (code == EXIT_DONE) {
-        code = source_pick(&from, true, &of, &in);
-        o->settings.no_scene = code == EXIT_DONE && in == NULL;
+        code = target_load(&made, &from, &o->common,
+                           (load_request){.use = IMAGE_TO_CHECK,
+                                          .scene = true,
+                                          .hints = !o->settings.quiet,
+                                          .conserve = true});
+    }
+    if (code == EXIT_DONE && !count_every(o, &made, &o->settings.every)) {
+        code = EXIT_BAD_INPUT;
+    }
+    if (code == EXIT_DONE && o->settings.kind == &engine_float) {
+        say_float_range(made.image);
+    }
+    if (code == EXIT_DONE && o->settings.kind == &engine_fixed) {
+        code = trusting_plan("run", made.image, shows_progress(&o->settings), from.errors, &plan);
+        if (plan != NULL && !o->settings.quiet) {
+            fixed_plan_say(plan, stderr, "whirl run: note: ");
+        }
     }
     if (code == EXIT_DONE) {
-        loaded made;
-        overrides changes = o->common.changes;
-        changes.balance = true;
-        const load_request request = {.settings = o->common.integration,
-                                      .use = IMAGE_TO_CHECK,
-                                      .hints = !o->settings.quiet,
-                                      .conserve = true};
-        code = load(&made, &from, of, in, &changes, &request);
-        if (code == EXIT_DONE && !count_every(o, of, made.image, &o->settings.every)) {
-            code = EXIT_BAD_INPUT;
-        }
-        if (code == EXIT_DONE && o->settings.kind == &engine_float) {
-            say_float_range(made.image);
-        }
-        fixed_plan *plan = NULL;
-        if (code == EXIT_DONE && o->settings.kind == &engine_fixed) {
-            code =
-                trusting_plan("run", made.image, shows_progress(&o->settings), from.errors, &plan);
-            if (plan != NULL && !o->settings.quiet) {
-                fixed_plan_say(plan, stderr, "whirl run: note: ");
-            }
-        }
-        if (code == EXIT_DONE) {
-            rating_request rated = {.target = o->target,
-                                    .board = o->board,
-                                    .board_word = o->board_word,
-                                    .number = o->number,
-                                    .settings = &o->common.integration,
-                                    .changes = &changes,
-                                    .of = of,
-                                    .in = in,
-                                    .errors = from.errors};
-            code = run_image(o, &from, made.image, &rated);
-        }
-        fixed_plan_free(plan);
-        unload(&made);
+        const rating_request rated = {.target = o->target,
+                                      .board = o->board,
+                                      .board_word = o->board_word,
+                                      .number = o->number,
+                                      .settings = &o->common.integration,
+                                      .changes = &o->common.changes,
+                                      .of = made.instance->mechanism,
+                                      .in = made.instance->scene,
+                                      .errors = from.errors,
+                                      .image = made.image};
+        o->settings.no_scene = rated.in == NULL;
+        code = run_image(o, &rated);
     }
+    fixed_plan_free(plan);
+    unload(&made);
     source_close(&from);
     free(step);
     free(chosen);

@@ -58,7 +58,6 @@ static const command_usage sweep_usage = {
         "  --quiet              no progress, no summary\n"
         "\n",
     .groups = OPTIONS_SCENE,
-    .tail = "",
     .why = {"",
             "a point failed (its measures are empty), a warning applies (see --strict), or the\n"
             "       file could not be written",
@@ -151,11 +150,7 @@ static bool is_whole_map(sweep_options *o) {
                             "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'",
                             o->over_count == 0 ? "there is none" : "there is one");
     }
-    if (o->json && options_is_standard(o->csv)) {
-        return options_fail("map",
-                            "--json and rows cannot share standard output\nhint: --csv rows.csv");
-    }
-    return true;
+    return options_json_is_alone("map", o->json, o->csv);
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -193,15 +188,6 @@ static measures *take_measures(const sweep_options *o, sweep *s, diags *errors) 
     s->measures = wanted;
     s->mechanism = wanted != NULL ? &wanted->mechanism : of;
     return wanted;
-}
-
-/* Returns false, reported, if --from is after the end, or if sweep_ends_are_alike() is false. */
-static bool ends_fit(const sweep *s, const loaded *base) {
-    if (s->from_s > base->instance->until_s) {
-        return options_fail("sweep", "--from %.9g s is after the end, %.9g s", s->from_s,
-                            base->instance->until_s);
-    }
-    return sweep_ends_are_alike(s, base->instance->until_s);
 }
 
 /* --- the map -----------------------------------------------------------------------------------*/
@@ -259,19 +245,17 @@ static double operations_of(const grid *g, const image *base) {
     return runs * operations;
 }
 
-static bool is_affordable(const sweep_options *o, const grid *g, const image *base) {
-    if (g->points > PAIRS_MOST) {
-        return options_fail(
-            "map", "%llu pairs exceed the limit of %d\nhint: use a smaller COUNT in each --over",
-            (unsigned long long)g->points, PAIRS_MOST);
-    }
-    return effort_suffices("map", o->effort, operations_of(g, base),
-                           "use fewer pairs, longer steps or an earlier --until",
-                           "%llu pairs with two runs each", (unsigned long long)g->points);
-}
-
 static int map_loaded(const sweep_options *o, const sweep *s, const image *base) {
-    if (!is_affordable(o, s->grid, base)) {
+    const unsigned long long pairs = s->grid->points;
+    if (pairs > PAIRS_MOST) {
+        (void)options_fail(
+            "map", "%llu pairs exceed the limit of %d\nhint: use a smaller COUNT in each --over",
+            pairs, PAIRS_MOST);
+        return EXIT_BAD_INPUT;
+    }
+    if (!effort_suffices("map", o->effort, operations_of(s->grid, base),
+                         "use fewer pairs, longer steps or an earlier --until",
+                         "%llu pairs with two runs each", pairs)) {
         return EXIT_BAD_INPUT;
     }
     const map_request request = {.of = *s,
@@ -300,7 +284,11 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
 
 /* Reports errors of the unchanged scene, which all points would share. Returns false after an error. */
 static bool begins(const sweep_options *o, const sweep *s, const loaded *base, diags *errors) {
-    if (!o->maps && !ends_fit(s, base)) {
+    const double until_s = base->instance->until_s;
+    if (s->from_s > until_s) {
+        return options_fail("sweep", "--from %.9g s is after the end, %.9g s", s->from_s, until_s);
+    }
+    if (!o->maps && !sweep_ends_are_alike(s, until_s)) {
         return false;
     }
     if (s->kind == &engine_float) {

@@ -9,7 +9,6 @@
 #include "host/check/run_checks.h"
 #include "host/check/run_json.h"
 #include "host/cli/load.h"
-#include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/io/plot.h"
@@ -66,17 +65,6 @@ static void show_progress(double share, void *context) {
     (void)context;
     fprintf(stderr, "\r%5.1f %%", 100.0 * share);
 }
-
-/* --- refused scenes ---------------------------------------------------------------------------------- */
-
-static bool can_start(const image *im, const engine_kind *kind, diags *errors) {
-    const bool good =
-        start_has_method(im, im->settings.method, errors) && start_is_possible(im, kind, errors);
-    diags_flush(errors, stderr);
-    return good;
-}
-
-/* --- the answer --------------------------------------------------------------------------------------*/
 
 static void say_failure(const image *im, const engine_kind *kind, const step_doubling *t) {
     diags *errors = diags_new();
@@ -144,7 +132,7 @@ static int trust_loaded(const trust_options *o, image *im, diags *errors) {
                          "accuracy early anyway",
                          "two runs of %.3g and %.3g steps", (double)im->steps,
                          2.0 * (double)im->steps) ||
-        !can_start(im, o->common.number, errors)) {
+        !image_can_start(im, o->common.number, errors)) {
         return EXIT_BAD_INPUT;
     }
     apart_say(stderr, "whirl trust", im);
@@ -161,24 +149,14 @@ static int trust_loaded(const trust_options *o, image *im, diags *errors) {
 }
 
 static int trust_source(source_model *from, void *options) {
-    const trust_options *o = options;
-    const mechanism *of;
-    const scene *in;
-    if (o->json && options_is_standard(o->csv)) {
-        (void)options_fail("trust", "--json and rows cannot share standard output\n"
-                                    "hint: --csv rows.csv");
+    trust_options *o = options;
+    loaded made;
+    if (!options_json_is_alone("trust", o->json, o->csv)) {
         return EXIT_BAD_INPUT;
     }
-    int code = source_pick(from, true, &of, &in);
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    overrides changes = o->common.changes;
-    changes.balance = true;
-    const load_request request = {
-        .settings = o->common.integration, .use = IMAGE_TO_CHECK, .conserve = true};
-    loaded made;
-    code = load(&made, from, of, in, &changes, &request);
+    o->common.changes.balance = true;
+    int code = target_load(&made, from, &o->common,
+                           (load_request){.use = IMAGE_TO_CHECK, .scene = true, .conserve = true});
     if (code == EXIT_DONE && o->common.number == &engine_float) {
         say_float_range(made.image);
     }

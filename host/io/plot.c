@@ -131,23 +131,11 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     return true;
 }
 
-/* The next entry of a list separated by commas, trimmed, or NULL. The caller frees it. */
-static char *panels_next(const char **list) {
-    if (*list == NULL) {
-        return NULL;
-    }
-    const char *from = *list;
-    const size_t length = strcspn(from, ",");
-    *list = from[length] == ',' ? from + length + 1 : NULL;
-    return alloc_trimmed(from, length);
-}
-
 static bool add_list(panels *p, const char *command, const char *list, const plot_run *runs,
                      int panel) {
     bool good = true;
-    for (char *name = panels_next(&list); name != NULL; name = good ? panels_next(&list) : NULL) {
+    for (char *name; good && (name = alloc_entry(&list)) != NULL; free(name)) {
         good = add(p, command, name, runs, panel);
-        free(name);
     }
     return good;
 }
@@ -171,7 +159,7 @@ static bool add_all(panels *p, const char *command, const plot_run *runs) {
 static bool name_runs(panels *p, const char *command, const char *legend, const plot_run *runs) {
     const char *list = legend;
     for (int k = 0; k < p->runs; k++) {
-        char *label = panels_next(&list);
+        char *label = alloc_entry(&list);
         if (label == NULL && legend != NULL) {
             fprintf(stderr,
                     "whirl %s: error: --legend has %d name%s for %d runs\n"
@@ -348,11 +336,7 @@ static void write_texts(FILE *to, const plot_run *run, bool units) {
 /* Writes CSV.toml. Returns false after an error (reported). */
 static bool write_beside(const char *csv, const char *text) {
     char *file = alloc_words("%s.toml", csv);
-    FILE *to = atomic_file_open(file);
-    if (to != NULL) {
-        fputs(text, to);
-    }
-    const bool good = to != NULL && atomic_file_close(to, file, true);
+    const bool good = atomic_file_print(file, "%s", text);
     if (!good) {
         atomic_file_not_whole(); /* an unwritable file is bad input only before a run */
     }
@@ -959,7 +943,7 @@ static bool draw_panels(const panels *p, const char *file, const plot_choice *ch
                        : own != NULL ? own
                                      : p->x_name,
                        last && own == NULL ? p->x_unit : NULL);
-            write_panel(g.to, p, runs, i, time, panels_next(&ylabels));
+            write_panel(g.to, p, runs, i, time, alloc_entry(&ylabels));
         }
         fputs("unset multiplot\n", g.to);
         drawn = gnuplot_close(&g);

@@ -88,21 +88,16 @@ char *records_name(const record_column *c) {
     return name;
 }
 
-static void write_name(const record_column *c, FILE *out, const layout *l) {
-    char *name = records_name(c);
-    fputs(name, out);
-    free(name);
-    if (!image_shows_si(c->unit)) {
-        fprintf(out, "%s[%s]", l->unit, c->unit->shown);
-    }
-}
-
 static void write_header(const records *r, FILE *out, const layout *l) {
-    fputs(l->header, out);
-    fputs("time", out);
+    fprintf(out, "%stime", l->header);
     for (int i = 1; i < r->columns; i++) {
-        fputs(l->between, out);
-        write_name(&r->column[i], out, l);
+        const record_column *c = &r->column[i];
+        char *name = records_name(c);
+        fprintf(out, "%s%s", l->between, name);
+        free(name);
+        if (!image_shows_si(c->unit)) {
+            fprintf(out, "%s[%s]", l->unit, c->unit->shown);
+        }
     }
     fputs(l->end, out);
 }
@@ -194,29 +189,15 @@ static int64_t time_of(const traces *w, uint64_t steps) {
     return (int64_t)(ratio_times(steps, w->form->image->step) * w->units_per_s + 0.5);
 }
 
-static void name_quantity(traces *w, int *signal, const char *name, const char *text,
-                          const image_unit *unit, double value) {
+/* Adds the signal of a quantity, and returns its number. */
+static int name_quantity(traces *w, const char *name, const char *text, const image_unit *unit) {
     char *shown =
         image_shows_si(unit) ? alloc_words("%s", name) : alloc_words("%s [%s]", name, unit->shown);
     char *note = alloc_words("%s [%s]%s%s", name, unit->shown, text[0] != '\0' ? ": " : "", text);
     const int made = vcd_add(w->vcd, VCD_REAL, shown, note);
-    if (signal != NULL) {
-        *signal = made;
-    } else {
-        vcd_change(w->vcd, made, 0, value);
-    }
     free(shown);
     free(note);
-}
-
-static void name_traces(traces *w) {
-    const records *r = w->form;
-    for (int i = 1; i < r->columns; i++) {
-        const record_column *c = &r->column[i];
-        char *name = records_name(c);
-        name_quantity(w, &w->signal[i], name, c->text, c->unit, 0.0);
-        free(name);
-    }
+    return made;
 }
 
 static void name_inputs(traces *w) {
@@ -226,7 +207,8 @@ static void name_inputs(traces *w) {
     }
     for (int i = 0; i < im->inputs; i++) {
         const image_quantity *q = &im->input[i];
-        name_quantity(w, NULL, q->name, q->text, &q->unit, image_shown(&q->unit, q->value));
+        const int signal = name_quantity(w, q->name, q->text, &q->unit);
+        vcd_change(w->vcd, signal, 0, image_shown(&q->unit, q->value));
     }
 }
 
@@ -279,7 +261,12 @@ traces *traces_open(FILE *out, const records *form) {
                              im->title[0] != '\0' ? ": " : "", im->title);
     w->vcd = vcd_new(out, what, power, im->name, form->kind->digits);
     free(what);
-    name_traces(w);
+    for (int i = 1; i < form->columns; i++) {
+        const record_column *c = &form->column[i];
+        char *name = records_name(c);
+        w->signal[i] = name_quantity(w, name, c->text, c->unit);
+        free(name);
+    }
     name_inputs(w);
     name_contacts(w);
     return w;

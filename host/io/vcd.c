@@ -1,5 +1,6 @@
 #include "vcd.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdbool.h>
@@ -25,22 +26,15 @@ typedef struct change {
 struct vcd {
     FILE *out;
     int digits;
-    int scopes; /* open scopes */
+    int scopes; /* open scopes; 0: the head is complete */
     vcd_signal *signal;
     int64_t signals;
-    bool begun;
-    bool timed; /* a time was written */
-    int64_t time;
+    int64_t time;    /* the last written time; -1: none */
     int64_t last;    /* the latest time of a change */
     change *waiting; /* ordered by time */
     int64_t count;
     int64_t room;
 };
-
-static bool is_simple(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '$';
-}
 
 /* Omits colons, because some viewers read such names as vectors. */
 static void write_name(FILE *out, const char *name) {
@@ -50,7 +44,7 @@ static void write_name(FILE *out, const char *name) {
     for (const char *at = name; *at != '\0'; at++) {
         if (*at != '[' && *at != ']') {
             *to = (char)((*at >= '\0' && *at <= ' ') || *at == ':' || *at == '\177' ? '_' : *at);
-            simple = simple && is_simple(*to);
+            simple = simple && (isalnum((unsigned char)*to) || *to == '_' || *to == '$');
             to++;
         }
     }
@@ -85,6 +79,7 @@ vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digi
     vcd *v = alloc(1, sizeof *v);
     v->out = out;
     v->digits = digits;
+    v->time = -1;
     fputs("$version whirl " WH_VERSION " $end\n", out);
     write_comment(out, what);
     fprintf(out, "$timescale %s%s $end\n", number[power % 3], unit[(power + 2) / 3]);
@@ -125,22 +120,10 @@ int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note) {
     return (int)v->signals++;
 }
 
-static void begin(vcd *v) {
-    if (v->begun) {
-        return;
-    }
-    v->begun = true;
-    for (; v->scopes > 0; v->scopes--) {
-        fputs("$upscope $end\n", v->out);
-    }
-    fputs("$enddefinitions $end\n", v->out);
-}
-
 static void write_time(vcd *v, int64_t time) {
-    if (!v->timed || time > v->time) {
+    if (time > v->time) {
         fprintf(v->out, "#%" PRId64 "\n", time);
         v->time = time;
-        v->timed = true;
     }
 }
 
@@ -182,7 +165,10 @@ void vcd_change(vcd *v, int signal, int64_t time, double value) {
 }
 
 static void write_until(vcd *v, int64_t time) {
-    begin(v);
+    while (v->scopes > 0) {
+        v->scopes--;
+        fputs(v->scopes > 0 ? "$upscope $end\n" : "$upscope $end\n$enddefinitions $end\n", v->out);
+    }
     int64_t done = 0;
     while (done < v->count && v->waiting[done].time <= time) {
         write_change(v, &v->waiting[done++]);

@@ -1,6 +1,7 @@
 #include "host/os/atomic_file.h"
 
 #include <errno.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -126,6 +127,17 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
     }
     free(part);
     return good;
+}
+
+bool atomic_file_print(const char *name, const char *format, ...) {
+    FILE *file = atomic_file_open(name);
+    if (file != NULL) {
+        va_list values;
+        va_start(values, format);
+        vfprintf(file, format, values);
+        va_end(values);
+    }
+    return file != NULL && atomic_file_close(file, name, true);
 }
 
 bool atomic_file_is_regular(FILE *file) {

@@ -15,6 +15,10 @@ FILE *atomic_file_open_in_place(const char *name);
  * place is only closed. Standard output is checked at the program's end (host/whirl.c). False: reported. */
 bool atomic_file_close(FILE *file, const char *name, bool keep);
 
+/* Writes a whole file, as printf() would print it, by atomic_file_open() and atomic_file_close(). False: reported. */
+bool atomic_file_print(const char *name, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Is an open file neither a device nor a pipe? */
 bool atomic_file_is_regular(FILE *file);
 

@@ -71,8 +71,6 @@ static cost_class class_of(const op *o) {
     return classes[o->code] != 0 ? classes[o->code] : COST_CLASS_MOVE;
 }
 
-/* Sine and cosine of an angle are counted as one operation, OP_PHASE. */
-static bool is_part_of_pair(const op *o) { return o->code == OP_SIN || o->code == OP_COS; }
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
 /* Executions of a list's operations per step, by depth_of(). In an inlined list, compilers evaluate an operation only
@@ -104,7 +102,8 @@ static void add_list(cost_counts *c, const op_list *t, bool turned, times run, d
     for (int i = 0; t != NULL && i < t->count; i++) {
         const op *o = &t->ops[i];
         depth[i] = depth_of(t, i, depth);
-        if (!is_part_of_pair(o) && !(turned && is_turned(o))) {
+        /* sine and cosine of an angle are counted as one operation, OP_PHASE */
+        if (o->code != OP_SIN && o->code != OP_COS && !(turned && is_turned(o))) {
             add(c, class_of(o),
                 depth[i] == 0   ? run.once
                 : depth[i] == 1 ? run.places
@@ -116,14 +115,6 @@ static void add_list(cost_counts *c, const op_list *t, bool turned, times run, d
         add(c, COST_CLASS_MOVE, run.stages * (op_list_carried(t) + t->results), code * t->results);
     }
     free(depth);
-}
-
-static int pairs_of(const op_list *t) {
-    int pairs = 0;
-    for (int i = 0; i < t->count; i++) {
-        pairs += is_turned(&t->ops[i]);
-    }
-    return pairs;
 }
 
 /* Counts each used library function once, because its code exists once. */
@@ -204,7 +195,10 @@ static void add_stages(cost_counts *c, const image *im, bool called, bool fpu) {
     const bool turned = image_turns(im);
     const work w = work_of(by, second && by->places != NULL);
     const op_list *list = im->list[IMAGE_STEP];
-    const int pairs = pairs_of(list);
+    int pairs = 0;
+    for (int i = 0; i < list->count; i++) {
+        pairs += is_turned(&list->ops[i]);
+    }
     const int components = second ? im->coordinates : im->angles + im->reals;
     const double copies = called ? 1 : w.stages;
     const times each = {w.stages, called ? w.stages : w.places, called ? w.stages : 1};

@@ -97,6 +97,15 @@ static void say(const grid *g, const char *over) {
     fprintf(stderr, "whirl %s: error: %s \"%s\"", command_of(g), option_of(g), over);
 }
 
+/* If there is a problem with the option's value, reports it, and returns false. */
+static bool has_no(const char *problem, const grid *g, const char *over) {
+    if (problem != NULL) {
+        say(g, over);
+        fprintf(stderr, ": %s\n", problem);
+    }
+    return problem == NULL;
+}
+
 /* --- the text of a range -----------------------------------------------------------------------*/
 
 typedef struct range_text {
@@ -105,13 +114,6 @@ typedef struct range_text {
     char *to;
     char *count;
 } range_text;
-
-static void range_free(range_text *r) {
-    free(r->name);
-    free(r->from);
-    free(r->to);
-    free(r->count);
-}
 
 /* Cuts the text at its '=', "..", and last ':'. */
 static bool range_split(const grid *g, const char *text, range_text *r) {
@@ -175,11 +177,7 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
     } else if (made->is_log && !(made->from * made->to > 0.0)) {
         problem = "the ends of a logarithmic range must both be above zero or both below zero";
     }
-    if (problem != NULL) {
-        say(g, over);
-        fprintf(stderr, ": %s\n", problem);
-    }
-    return problem == NULL;
+    return has_no(problem, g, over);
 }
 
 /* --- its values --------------------------------------------------------------------------------*/
@@ -225,11 +223,7 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
             problem = "step must be above zero";
         }
     }
-    if (problem != NULL) {
-        say(g, over);
-        fprintf(stderr, ": %s\n", problem);
-    }
-    return problem == NULL;
+    return has_no(problem, g, over);
 }
 
 static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
@@ -248,9 +242,7 @@ static bool read_axis(const grid *g, const mechanism *of, const char *over, cons
 static bool fits_in(const grid *g, const char *over, const axis *made) {
     for (int i = 0; i < g->count; i++) {
         if (g->axes[i].symbol == made->symbol && g->axes[i].primes == made->primes) {
-            say(g, over);
-            fputs(": another option already sweeps this name\n", stderr);
-            return false;
+            return has_no("another option already sweeps this name", g, over);
         }
     }
     if (g->count > 0 && made->count > GRID_POINTS_MAX / g->points) {
@@ -272,15 +264,18 @@ bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
     if (good) {
         axis *longer = alloc_more(g->axes, g->count + 1, sizeof *longer);
         made.name = alloc_trimmed(r.name, strlen(r.name));
-        const bool is_start = made.symbol != NULL && (made.symbol->kind == SYM_COORDINATE ||
-                                                      made.symbol->kind == SYM_STATE);
-        made.column = alloc_words(is_start ? "start(%s)" : "%s", made.name);
+        made.is_start = made.symbol != NULL &&
+                        (made.symbol->kind == SYM_COORDINATE || made.symbol->kind == SYM_STATE);
+        made.column = alloc_words(made.is_start ? "start(%s)" : "%s", made.name);
         g->axes = longer;
         g->axes[g->count] = made;
         g->points = g->count == 0 ? made.count : g->points * made.count;
         g->count++;
     }
-    range_free(&r);
+    free(r.name);
+    free(r.from);
+    free(r.to);
+    free(r.count);
     return good;
 }
 

@@ -17,6 +17,7 @@ typedef struct axis {
     double to;
     uint64_t count; /* 1 only when from = to */
     bool is_log;
+    bool is_start; /* a start value: the symbol is a coordinate or a state */
 } axis;
 
 /* All combinations of the axes' values; the last axis changes fastest. Starts as {0}; free with grid_free(). */

@@ -250,9 +250,8 @@ static const expr *read_expression(measures *m, const mechanism *of, const char 
 }
 
 static void add(measures *m, measure_kind kind, const char *name, const expr *of) {
-    measure *longer = arena_room(m->arena, m->list, m->count, sizeof *longer);
-    m->list = longer;
-    m->list[m->count++] = (measure){kind, name, of};
+    const measure made = {kind, name, of};
+    m->list = arena_push(m->arena, m->list, &m->count, &made, sizeof made);
 }
 
 static void add_symbol(measures *m, const mechanism *of, const symbol *s, int primes) {
@@ -591,19 +590,6 @@ image *sweep_image(const sweep *s, uint64_t point, diags *errors) {
     return im;
 }
 
-static bool measure_point(const sweep *s, uint64_t point, double *value, FILE *reason,
-                          point_notes *notes) {
-    diags *errors = diags_new();
-    image *im = sweep_image(s, point, errors);
-    const bool good = im != NULL && sweep_measure(s, im, value, errors, reason, notes);
-    if (diags_count(errors) > 0) {
-        tell_first(errors, reason);
-    }
-    image_free(im);
-    diags_free(errors);
-    return good;
-}
-
 /* --- rows --------------------------------------------------------------------------------------*/
 
 char *sweep_unit(const symbol *of, int primes) {
@@ -667,8 +653,15 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out) {
 
 bool sweep_point(const sweep *s, uint64_t point, FILE *row, FILE *reason, point_notes *notes) {
     double *value = alloc(s->measures->count + 1, sizeof *value);
+    diags *errors = diags_new();
+    image *im = sweep_image(s, point, errors);
     *notes = (point_notes){0};
-    const bool good = measure_point(s, point, value, reason, notes);
+    const bool good = im != NULL && sweep_measure(s, im, value, errors, reason, notes);
+    if (diags_count(errors) > 0) {
+        tell_first(errors, reason);
+    }
+    image_free(im);
+    diags_free(errors);
     sweep_swept_fields(s, point, row);
     for (int i = 0; i < s->measures->count; i++) {
         fputc(',', row);

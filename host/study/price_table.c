@@ -71,12 +71,6 @@ typedef struct climbed {
     table_row row[SUBSTEPS];
 } climbed;
 
-/* With contacts, the price is the number of evaluations in the run. */
-static void price_by_evaluations(table_row *row) {
-    const double each = row->result.evaluations;
-    row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
-}
-
 /* Tries ever finer steps of a setting, with up to `each` operations in one trial. */
 static void climb(trials *t, const table_request *w, const setting *s, double each, climbed *c) {
     const bool contacts = t->image[0]->contacts > 0;
@@ -112,8 +106,9 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         if (!row.result.ran || !row.result.usable) {
             continue;
         }
-        if (contacts) {
-            price_by_evaluations(&row);
+        if (contacts) { /* the price is the number of evaluations in the run */
+            const double rate = row.result.evaluations;
+            row.price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, rate, rate, rate};
         }
         c->row[c->count++] = row;
         if (w->error > 0.0 && row.result.error * TABLE_MARGIN <= w->error) {
@@ -458,25 +453,19 @@ static void print_letters(FILE *out, const table_row *first) {
     }
 }
 
-/* Prints the command that counts the missing figures. */
-static void say_contacts(FILE *out, const trials *t) {
+static void print_notes(FILE *out, const trials *t, const table *made) {
+    char text[FIGURE_WORDS];
+    const table_row *first = &made->row[0];
     const char *board = t->request.board->name;
-    if (strcmp(board, "host") != 0) {
+    const bool contacts = first->price.unit == PRICE_EVALUATIONS;
+    table_print_left(out, made);
+    if (contacts && strcmp(board, "host") != 0) {
         fprintf(
             out,
             "run this in the root of Whirl's source tree to count cycles, flash and RAM with the "
             "emulator:\n  whirl choose %s%s --error 1e-3 --board %s\n",
             t->request.target, t->request.changes, board);
-    }
-}
-
-static void print_notes(FILE *out, const trials *t, const table *made) {
-    char text[FIGURE_WORDS];
-    const table_row *first = &made->row[0];
-    table_print_left(out, made);
-    if (first->price.unit == PRICE_EVALUATIONS) {
-        say_contacts(out, t);
-    } else {
+    } else if (!contacts) {
         fprintf(out, "  %s per simulated second: %s\n", table_unit_words[first->price.unit],
                 figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
                                                                : &first->cost.instructions,
@@ -699,16 +688,6 @@ static const cost_layout run_layout = {RUN_COLUMNS, 0, 3, 4, 6, 7};
 /* The larger of the bounds at two points; 0, unknown, if one of them is. */
 static double bound_of(double a, double b) { return a > 0.0 && b > 0.0 ? number_most(a, b) : 0.0; }
 
-/* Runs a command line. Returns its exit status; `row` gets the last line of its output. */
-static int count_line(char *line, char *row, int size) {
-    char *command = alloc_words("%s 2>/dev/null", line);
-    row[0] = '\0';
-    const int status = line_from(command, NULL, row, size);
-    free(command);
-    free(line);
-    return status;
-}
-
 /* Enters a row of count_run.sh, a whole run at one point. `first`: the first point. */
 static void enter_run(char *const *column, bool first, counted_run *run) {
     const double instructions = decimal_read(column[RUN_BOUND], NULL);
@@ -729,8 +708,12 @@ static int count(const trials *t, table_row *row) {
     row->cost = (cost){.why = "", .state_bytes = runs ? (cost_figure){0} : row->cost.state_bytes};
     for (int p = 0; p < (runs ? t->points : 1) && status == 0; p++) {
         const int point = runs ? p : row->result.point;
-        status =
-            count_line(table_measure_line(t, &row->setting, row->pace, point), line, sizeof line);
+        char *measure = table_measure_line(t, &row->setting, row->pace, point);
+        char *command = alloc_words("%s 2>/dev/null", measure);
+        line[0] = '\0';
+        status = line_from(command, NULL, line, sizeof line);
+        free(command);
+        free(measure);
         if (status == 0 && !cost_enter(line, layout, column, t->request.board, &row->cost)) {
             status = 1;
         } else if (status == 0 && runs) {
@@ -738,12 +721,6 @@ static int count(const trials *t, table_row *row) {
         }
     }
     return status;
-}
-
-/* Do the counted figures of `a` also apply to `b`? `by_pace`: only if their steps have the same length. */
-static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
-    return setting_order(&a->setting) == setting_order(&b->setting) &&
-           (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);
 }
 
 measured_end measured_count(const trials *t, table *made, int row) {
@@ -754,10 +731,14 @@ measured_end measured_count(const trials *t, table *made, int row) {
         return MEASURED_MISSING;
     }
     int kept = 0;
+    /* the counted figures apply to other rows of the setting, too, or only to steps of the same length */
     const bool by_pace = runs || setting_price_varies(&counted.setting);
+    const deviation_pace pace = counted.pace;
     for (int i = 0; i < made->count; i++) {
         table_row now = made->row[i];
-        const bool alike = is_alike(&now, &counted, by_pace);
+        const bool alike =
+            setting_order(&now.setting) == setting_order(&counted.setting) &&
+            (!by_pace || now.pace.steps * pace.records == pace.steps * now.pace.records);
         if (alike) {
             now.cost = counted.cost;
             now.run = counted.run;

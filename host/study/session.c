@@ -40,12 +40,6 @@ static int cannot_write(const char *path) {
     return EXIT_RUN_FAILED;
 }
 
-/* A wrong path is bad input, as for `run`. */
-static int cannot_open(const char *path) {
-    write_error_say(path);
-    return EXIT_BAD_INPUT;
-}
-
 /* --- the fingerprint ---------------------------------------------------------------------------*/
 
 static char *read_text(const char *path) {
@@ -54,22 +48,13 @@ static char *read_text(const char *path) {
         return NULL;
     }
     char *text = NULL;
-    size_t length = 0;
-    FILE *copy = alloc_text(&text, &length);
-    for (int c = getc(in); c != EOF; c = getc(in)) {
-        putc(c, copy);
+    size_t size = 0;
+    if (getdelim(&text, &size, '\0', in) < 0) { /* the file is empty */
+        free(text);
+        text = alloc_words("%s", "");
     }
-    alloc_text_end(copy);
     fclose(in);
     return text;
-}
-
-static bool write_fingerprint(const resumable_csv *sh, const char *fingerprint) {
-    FILE *out = atomic_file_open(sh->beside);
-    if (out != NULL) {
-        fprintf(out, "%s%s", fingerprint, sh->notes);
-    }
-    return out != NULL && atomic_file_close(out, sh->beside, true);
 }
 
 #define NOTED "noted: "
@@ -106,26 +91,15 @@ static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s)
 
 /* --- the rows that are there -------------------------------------------------------------------*/
 
-static bool ends_whole(const char *line, ssize_t length) {
-    return length >= 2 && line[length - 2] == '\r' && line[length - 1] == '\n';
-}
-
-/* The swept fields of a row as text, followed by a comma. */
-static char *swept_text(const resumable_csv_settings *s, uint64_t row) {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = alloc_text(&text, &length);
-    s->swept(s->context, row, out);
-    fputc(',', out);
-    alloc_text_end(out);
-    return text;
-}
-
 /* Has the line the row's swept fields, followed by s->measures numbers or empty fields? */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,
                    bool *failed) {
-    char *swept = swept_text(s, row);
-    const size_t start = strlen(swept);
+    char *swept = NULL;
+    size_t start = 0;
+    FILE *out = alloc_text(&swept, &start);
+    s->swept(s->context, row, out);
+    fputc(',', out);
+    alloc_text_end(out);
     bool good = row < s->rows && length > start && strncmp(line, swept, start) == 0;
     free(swept);
     int commas = 0;
@@ -146,7 +120,7 @@ static int check_rows(resumable_csv *sh, const resumable_csv_settings *s, off_t 
     *whole = 0;
     for (;;) {
         const ssize_t length = getline(&line, &size, sh->out);
-        if (length < 0 || !ends_whole(line, length)) {
+        if (length < 2 || strcmp(line + length - 2, "\r\n") != 0) {
             break;
         }
         bool failed = false;
@@ -186,7 +160,7 @@ static int go_on(resumable_csv *sh, const resumable_csv_settings *s, off_t size)
     if (whole == 0 && ftruncate(fileno(sh->out), 0) != 0) {
         return cannot_write(s->path);
     }
-    if (!write_fingerprint(sh, s->fingerprint)) {
+    if (!atomic_file_print(sh->beside, "%s%s", s->fingerprint, sh->notes)) {
         return EXIT_BAD_INPUT;
     }
     if (ftruncate(fileno(sh->out), whole) != 0 || fseeko(sh->out, whole, SEEK_SET) != 0) {
@@ -215,14 +189,16 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s) {
             return EXIT_DONE;
         }
         forget(sh);
-        return sh->out != NULL ? cannot_write(s->path) : cannot_open(s->path);
+        write_error_say(s->path);
+        return sh->out != NULL ? EXIT_RUN_FAILED : EXIT_BAD_INPUT; /* as for `run` */
     }
     sh->is_file = true;
     const int file = open(s->path, O_RDWR | O_CREAT, 0666);
     sh->out = file < 0 ? NULL : fdopen(file, "r+b");
     if (sh->out == NULL) {
         forget(sh);
-        return cannot_open(s->path);
+        write_error_say(s->path);
+        return EXIT_BAD_INPUT;
     }
     int code = EXIT_DONE;
     if (!system_lock(sh->out)) {
@@ -365,13 +341,6 @@ static void put_point(json *j, const char *row, const char *error, const point_n
     } else {
         json_null(j, "error");
     }
-    json_close(j, '}');
-}
-
-static void json_sweep_end(json *j, uint64_t failed, int status) {
-    json_close(j, ']');
-    json_count(j, "failed", failed);
-    json_whole(j, "exit", status);
     json_close(j, '}');
 }
 
@@ -520,15 +489,6 @@ static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
     return good;
 }
 
-/* Findings of the file's earlier rows, so that a continued sweep has the exit status of an uninterrupted one. */
-static unsigned fails_before(const sitting *s) {
-    unsigned fails = 0;
-    for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
-        fails |= has_note(&s->sheet, finding_rows[id].word) ? FINDING_BIT(id) : 0U;
-    }
-    return fails;
-}
-
 /* Prints a point: "point 17 (r=0.02, theta'=31.4)". */
 static void name_point(const sweep *s, uint64_t point) {
     double *value = alloc(s->grid->count, sizeof *value);
@@ -641,7 +601,10 @@ static int run_points(const session_settings *o, sitting *s) {
     const uint64_t missing = o->end - next;
     const int workers = missing < (uint64_t)o->jobs ? (int)missing : o->jobs;
     s->failed = s->sheet.failed;
-    s->fails = fails_before(s);
+    /* the file's earlier rows count, too: a continued sweep has the exit status of an uninterrupted one */
+    for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
+        s->fails |= has_note(&s->sheet, finding_rows[id].word) ? FINDING_BIT(id) : 0U;
+    }
     s->shows = !o->quiet && isatty(STDERR_FILENO);
     s->start_s = system_now_s();
     const jobs plan = {.workers = workers,
@@ -704,7 +667,10 @@ int session_run(const sweep *s, const session_settings *o) {
         code = run_points(o, &here);
     }
     if (writes) {
-        json_sweep_end(&written, here.failed, code);
+        json_close(&written, ']');
+        json_count(&written, "failed", here.failed);
+        json_whole(&written, "exit", code);
+        json_close(&written, '}');
     }
     free(header);
     return code;

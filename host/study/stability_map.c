@@ -62,13 +62,6 @@ static bool is_highest(const step_doubling *t, int k) {
     return highest;
 }
 
-static void take_ranges(row_runs *p, const horizon *h) {
-    p->range = alloc(h->of->columns, sizeof *p->range);
-    for (int k = 1; k < h->of->columns; k++) {
-        p->range[k] = h->column[k].range;
-    }
-}
-
 /* Did the run or its finer run fail, or does the error of a highest derivative exceed MAP_BOUND times its range? */
 static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
@@ -87,7 +80,10 @@ static map_cell cell_of(row_runs *p, const run_checks *v) {
     map_cell cell = {
         .verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = (double)NAN};
     if (p->range == NULL) {
-        take_ranges(p, &h);
+        p->range = alloc(t->columns, sizeof *p->range);
+        for (int k = 1; k < t->columns; k++) {
+            p->range[k] = h.column[k].range;
+        }
     }
     if (v->balance.known) {
         cell.left_over = v->balance.ratio;
@@ -187,14 +183,6 @@ static map_verdict verdict_at(const stability_map *m, uint64_t row, uint64_t at)
 
 /* --- for people ------------------------------------------------------------------------------------------*/
 
-static void print_row(FILE *out, const stability_map *m, uint64_t row) {
-    fprintf(out, "  %-12.6g ", map_row(m, row));
-    for (uint64_t i = 0; i < along_of(m)->count; i++) {
-        fputc(map_verdicts[verdict_at(m, row, i)].mark, out);
-    }
-    fputc('\n', out);
-}
-
 /* The row with the largest value is on top, as in the picture. */
 void map_print(FILE *out, const stability_map *m, const char *words) {
     const axis *along = along_of(m);
@@ -203,7 +191,12 @@ void map_print(FILE *out, const stability_map *m, const char *words) {
             map_along(m, 0), map_along(m, along->count - 1), along->is_log ? ", logarithmic" : "");
     const bool rises = rows->from <= rows->to;
     for (uint64_t i = 0; i < rows->count; i++) {
-        print_row(out, m, rises ? rows->count - 1 - i : i);
+        const uint64_t row = rises ? rows->count - 1 - i : i;
+        fprintf(out, "  %-12.6g ", map_row(m, row));
+        for (uint64_t at = 0; at < along->count; at++) {
+            fputc(map_verdicts[verdict_at(m, row, at)].mark, out);
+        }
+        fputc('\n', out);
     }
     fputc('\n', out);
     for (int i = 0; i < MAP_VERDICTS; i++) {

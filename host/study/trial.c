@@ -64,12 +64,18 @@ static int tables_of(const setting *s) {
 
 static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE; }
 
-/* Number of words of each axis. */
-static const int words[AXES] = {[AXIS_METHOD] = WH_METHODS,
-                                [AXIS_NUMBER] = SETTING_NUMBERS,
-                                [AXIS_ANGLES] = IMAGE_ANGLES,
-                                [AXIS_MATRIX] = IMAGE_MATRICES,
-                                [AXIS_TABLES] = TABLES};
+/* The heading of each axis, and its words: the first members of `count` rows of `size` bytes. */
+static const struct {
+    const char *heading;
+    const void *rows;
+    size_t size;
+    int count;
+} axes[AXES] = {
+    [AXIS_METHOD] = {"method", wh_methods, sizeof wh_methods[0], WH_METHODS},
+    [AXIS_NUMBER] = {"number", numbers, sizeof numbers[0], SETTING_NUMBERS},
+    [AXIS_ANGLES] = {"angles", image_angles_words, sizeof image_angles_words[0], IMAGE_ANGLES},
+    [AXIS_MATRIX] = {"matrix", image_matrix_words, sizeof image_matrix_words[0], IMAGE_MATRICES},
+    [AXIS_TABLES] = {"tables", tables, sizeof tables[0], TABLES}};
 
 /* The index of a setting's word. */
 static int word_of(const setting *s, setting_axis axis) {
@@ -84,40 +90,20 @@ static int word_of(const setting *s, setting_axis axis) {
     return 0;
 }
 
-const char *setting_heading(setting_axis axis) {
-#define SETTING_HEADING(id, heading) heading,
-    static const char *const headings[AXES] = {SETTING_AXES(SETTING_HEADING)};
-#undef SETTING_HEADING
-    return headings[axis];
-}
+const char *setting_heading(setting_axis axis) { return axes[axis].heading; }
 
 const char *setting_word(const setting *s, setting_axis axis) {
-    const int i = word_of(s, axis);
-    switch (axis) {
-    case AXIS_METHOD: return wh_methods[i].word;
-    case AXIS_NUMBER: return numbers[i].word;
-    case AXIS_ANGLES: return image_angles_words[i];
-    case AXIS_MATRIX: return image_matrix_words[i];
-    case AXIS_TABLES: return tables[i].word;
-    case AXES: break;
-    }
-    return "";
-}
-
-static int combinations(void) {
-    int count = 1;
-    for (int i = 0; i < AXES; i++) {
-        count *= words[i];
-    }
-    return count;
+    const char *rows = axes[axis].rows;
+    const char *const *word = (const void *)(rows + (size_t)word_of(s, axis) * axes[axis].size);
+    return *word;
 }
 
 /* The last axis runs fastest. */
 static setting combination(int i) {
     int word[AXES];
     for (int axis = AXES - 1; axis >= 0; axis--) {
-        word[axis] = i % words[axis];
-        i /= words[axis];
+        word[axis] = i % axes[axis].count;
+        i /= axes[axis].count;
     }
     setting s = {IMAGE_SETTINGS_DEFAULT, numbers[word[AXIS_NUMBER]].kind};
     s.image.method = (wh_method)word[AXIS_METHOD];
@@ -145,8 +131,12 @@ static bool makes_sense(const setting *s) {
 }
 
 int setting_count(void) {
+    int combinations = 1;
     int count = 0;
-    for (int i = 0; i < combinations(); i++) {
+    for (int axis = 0; axis < AXES; axis++) {
+        combinations *= axes[axis].count;
+    }
+    for (int i = 0; i < combinations; i++) {
         const setting s = combination(i);
         count += makes_sense(&s) ? 1 : 0;
     }
@@ -179,7 +169,7 @@ bool setting_is_asked(const setting *s, const bool method[WH_METHODS]) {
 int setting_order(const setting *s) {
     int order = 0;
     for (int axis = 0; axis < AXES; axis++) {
-        order = order * words[axis] + word_of(s, (setting_axis)axis);
+        order = order * axes[axis].count + word_of(s, (setting_axis)axis);
     }
     return order;
 }
@@ -400,18 +390,6 @@ static void drop(image *im) {
     }
 }
 
-/* Adds the step in fixed point; if none is possible, frees the image. A full run finds ranges that are not declared. */
-static image *in_fixed_point(image *im) {
-    diags *unsaid = diags_new();
-    im->fixed = fixed_plan_make(im, false, unsaid);
-    diags_free(unsaid);
-    if (im->fixed == NULL) {
-        image_free(im);
-        return NULL;
-    }
-    return im;
-}
-
 static image *image_of(const trials *t, int point, const setting *s, deviation_pace pace) {
     char step[NUMBER_SIZE];
     char until[NUMBER_SIZE];
@@ -424,7 +402,16 @@ static image *image_of(const trials *t, int point, const setting *s, deviation_p
         snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)w->records, w->spacing));
     }
     image *im = w->source->make(w->source->context, t->place[point], s, step, until);
-    return im != NULL && fixed ? in_fixed_point(im) : im;
+    if (im != NULL && fixed) { /* a full run finds the ranges that are not declared */
+        diags *unsaid = diags_new();
+        im->fixed = fixed_plan_make(im, false, unsaid);
+        diags_free(unsaid);
+        if (im->fixed == NULL) { /* no step in fixed point is possible */
+            image_free(im);
+            im = NULL;
+        }
+    }
+    return im;
 }
 
 void trial_end(trials *t) {
@@ -488,12 +475,6 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
     return runs * steps * each * wh_methods[s->image.method].stages * t->points;
 }
 
-static cost price_of(const trials *t, const setting *s, const image *im) {
-    image priced = *im;
-    priced.contacts = t->without_events ? 0 : im->contacts;
-    return cost_of(&priced, t->request.board, setting_cost_number(s));
-}
-
 cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
     *own = true;
@@ -504,7 +485,10 @@ cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *ow
             return (cost){.why = "it cannot be derived"};
         }
         *own = *own && setting_is_own(s, im);
-        const cost c = *own ? price_of(t, s, im) : (cost){.why = ""};
+        image priced = *im;
+        priced.contacts = t->without_events ? 0 : im->contacts;
+        const cost c =
+            *own ? cost_of(&priced, t->request.board, setting_cost_number(s)) : (cost){.why = ""};
         drop(im);
         if (p == 0 || c.instructions_worst.most > dearest.instructions_worst.most) {
             dearest = c;

@@ -16,18 +16,17 @@ typedef struct setting {
     const engine_kind *number;
 } setting;
 
-/* X(id, heading of a column), in the order of the options. The first word of an axis is its default. */
-#define SETTING_AXES(X) \
-    X(AXIS_METHOD, "method") \
-    X(AXIS_NUMBER, "number") \
-    X(AXIS_ANGLES, "angles") \
-    X(AXIS_MATRIX, "matrix") \
-    X(AXIS_TABLES, "tables")
-#define SETTING_AXIS(id, heading) id,
-typedef enum setting_axis { SETTING_AXES(SETTING_AXIS) AXES } setting_axis;
-#undef SETTING_AXIS
+/* In the order of the options. The first word of an axis is its default. */
+typedef enum setting_axis {
+    AXIS_METHOD,
+    AXIS_NUMBER,
+    AXIS_ANGLES,
+    AXIS_MATRIX,
+    AXIS_TABLES,
+    AXES
+} setting_axis;
 
-const char *setting_heading(setting_axis axis);
+const char *setting_heading(setting_axis axis); /* of a column */
 const char *setting_word(const setting *s, setting_axis axis);
 
 /* All combinations that make sense for some scene. With a matrix there is no choice of method or angles, and with

@@ -19,20 +19,10 @@
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
 
-/* Is this an ELF file? The machine is at byte 18, in the file's byte order. */
-static bool is_elf(const unsigned char *head, size_t count, bool *arm) {
-    enum { MACHINE = 18, ARM = 40, LITTLE = 1 };
-    if (count < MACHINE + 2 || memcmp(head, "\177ELF", 4) != 0) {
-        return false;
-    }
-    const unsigned machine = head[5] == LITTLE ? head[MACHINE] | (unsigned)head[MACHINE + 1] << 8
-                                               : head[MACHINE + 1] | (unsigned)head[MACHINE] << 8;
-    *arm = machine == ARM;
-    return true;
-}
-
+/* Is this an ELF file? If not, reports it. The machine is at byte 18, in the file's byte order. */
 static bool look_at_image(const char *name, bool *arm) {
-    unsigned char head[20];
+    enum { MACHINE = 18, ARM = 40, LITTLE = 1 };
+    unsigned char head[MACHINE + 2];
     FILE *file = fopen(name, "rb");
     if (file == NULL) {
         fprintf(stderr,
@@ -43,13 +33,16 @@ static bool look_at_image(const char *name, bool *arm) {
     }
     const size_t count = fread(head, 1, sizeof head, file);
     fclose(file);
-    if (!is_elf(head, count, arm)) {
+    if (count < sizeof head || memcmp(head, "\177ELF", 4) != 0) {
         fprintf(
             stderr,
             "%s: error: not a firmware image: it is not in ELF\nhint: give an image for Arm that QEMU runs, or a program of this machine (docs/pil.md)\n",
             name);
         return false;
     }
+    const int low = head[5] == LITTLE ? MACHINE : MACHINE + 1;
+    const int high = head[5] == LITTLE ? MACHINE + 1 : MACHINE;
+    *arm = (head[low] | (unsigned)head[high] << 8) == ARM;
     return true;
 }
 

@@ -154,14 +154,6 @@ static bool start(pool *p) {
     return p->started > 0;
 }
 
-/* Sends numbers within the window. */
-static void send(pool *p) {
-    while (p->sent < p->jobs->end && p->sent < p->delivered + p->window &&
-           write_all(p->tickets[1], &p->sent, sizeof p->sent)) {
-        p->sent++;
-    }
-}
-
 /* Moves complete answers to their slots. */
 static void take_answers(pool *p, worker *w) {
     size_t at = 0;
@@ -226,7 +218,10 @@ static jobs_result attend(pool *p) {
     struct pollfd *ears = alloc(p->started, sizeof *ears);
     jobs_result result = JOBS_DONE;
     while (p->delivered < j->end && result == JOBS_DONE) {
-        send(p);
+        while (p->sent < j->end && p->sent < p->delivered + p->window &&
+               write_all(p->tickets[1], &p->sent, sizeof p->sent)) {
+            p->sent++;
+        }
         for (int i = 0; i < p->started; i++) {
             ears[i] = (struct pollfd){.fd = p->workers[i].results, .events = POLLIN};
         }
