@@ -1,7 +1,7 @@
 /* solve.c: the solution for the highest derivatives in the arrangement with the least op_list_weight(). Arrangements
- * differ in the scale of the equations, the order of elimination, the first evaluated sine, and the symbolic
- * elimination. Symbolic elimination removes coordinates with a constant diagonal (a carriage's total mass, a body on a
- * hinge). The other equations return to normal form and may shrink. Cramer's rule solves the last with one division. */
+ * differ in scale, in the order of elimination, in the first evaluated sine, and in symbolic elimination, which removes
+ * coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The other equations return to
+ * normal form, which may shorten them. Cramer's rule solves the last two or three with one division. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static int minus_product(op_list *t, int from, int x, int y) {
     return op_list_sub(t, from, op_list_mul(t, x, y));
 }
 
-/* Below, mass[n * n] and force[n] are operations, and are overwritten. solution[n] receives operations. */
+/* Below, mass[n * n], force[n] and solution[n] hold indices of operations. Elimination overwrites mass and force. */
 
 /* Enters the determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
 static int determinant(op_list *t, int n, const int *mass, const int *rows, const int *columns,
@@ -112,8 +112,8 @@ static void exchange(int *a, int *b) {
     *b = kept;
 }
 
-/* Moves the best pivot among rows and columns from `at` on to position `at`. Returns true if it is a constant;
- * otherwise it is the largest at a generic state. */
+/* Moves a pivot from the rows and columns >= `at` to position `at`: the largest constant or, if there is none, the
+ * entry that is largest at a generic state. Returns true if the pivot is a constant. */
 static bool bring_pivot(const op_list *t, int n, const int *mass, const double *value, int *rows,
                         int *columns, int at) {
     double best = -1.0;
@@ -139,9 +139,8 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
     return best_constant;
 }
 
-/* Eliminates with the largest pivot at a generic state, and solves the last three equations by Cramer's rule. An entry
- * of `of` that is zero at the generic state is zero by identity. If the determinant is not identically zero, neither is
- * a divisor. */
+/* Eliminates with the pivots of bring_pivot(). Cramer's rule solves up to three last equations. An entry of[i] that is
+ * 0 at the generic state is 0 at every state, so a divisor can be identically zero only if the determinant is. */
 static void eliminate_general(op_list *t, int n, const poly *const *of, int *mass, int *force,
                               int *solution) {
     int *rows = alloc(2 * (int64_t)n, sizeof *rows);
@@ -182,7 +181,7 @@ static void eliminate_general(op_list *t, int n, const poly *const *of, int *mas
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
-/* A body on a hinge with the angle q has this row of the equations:
+/* A body on a hinge with the angle q has this row of the equations, with constants A and c:
  *
  *     A q'' + sum_j P_j x_j = f,        P_j = Re(z_j exp(i c q)),    f = Re(w exp(i c q)) + rest
  *
@@ -192,7 +191,7 @@ static void eliminate_general(op_list *t, int n, const poly *const *of, int *mas
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
  * The first term has no q and joins m_ij in the normal form. The second acts as a mass that moves only along the line
- * from the hinge to the body. The forces split in the same way: their common factor is the pull along that line. */
+ * from the hinge to the body. The forces split in the same way, with a common factor: the pull along that line. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
@@ -209,8 +208,8 @@ static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
 }
 
 typedef struct wave_of {
-    const poly *here;   /* Re(z exp(i c q)) */
-    const poly *across; /* Im(z exp(i c q)) */
+    const poly *here;   /* P = Re(z exp(i c q)), z as above */
+    const poly *across; /* its quadrature P~ */
 } wave_of;
 
 static wave_of wave_make(algebra *a, const poly *p, const symbol *q, double c) {
@@ -269,12 +268,12 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
 }
 
 /* Eliminates the angle `turning`, unknown k, from the remaining equations mass[n * n] and force[n]. In row k, the
- * diagonal entry must be a number, *own, and the others sinusoids of the angle with one frequency. If not, returns
- * false and changes nothing. The other equations become
+ * diagonal entry must be a number, *own > 0, and the others sinusoids of the angle with one frequency. If not, returns
+ * false and changes no equation. Otherwise changes mass[] and force[], but not row k. The remaining equations are then
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
- * with the changed mass[] and force[]. Row k stays. across[n + 1] is 0 for k and for eliminated unknowns. */
+ * and the caller adds the second terms. across[n + 1] is 0 for k and for eliminated unknowns. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -324,7 +323,7 @@ typedef struct arrangement {
     bool scaled;
     bool rescaled; /* equations are rescaled after symbolic elimination */
     bool hinged;   /* unknowns on hinges are eliminated first, in the order below */
-    int lead;      /* rank of the angle that is evaluated first (lower.h) */
+    int lead;      /* rank by size of the angle that is evaluated first (lower.h) */
     /* unknown that is eliminated symbolically; -1: none; -2: all with a constant diagonal */
     int first;
     int order[COORDINATES_MAX]; /* order of elimination */
@@ -338,7 +337,7 @@ typedef struct arranged {
     const poly **force; /* [n] */
     int hinges;
     const poly **across; /* [hinges * (n + 1)] `across` of hinge_eliminate() for each hinge */
-    double inverse[COORDINATES_MAX]; /* [hinges] factor of the products of across */
+    double inverse[COORDINATES_MAX]; /* [hinges] factor of across_i across_j in add_across() */
     double scale[COORDINATES_MAX];   /* [n] scale of each row and column */
     bool gone[COORDINATES_MAX];      /* [n] eliminated symbolically */
     int order[COORDINATES_MAX];      /* [n] eliminated unknowns first */
@@ -349,7 +348,7 @@ typedef struct arranged {
 
 #define TALLY_MAX 128 /* different numbers in a tally; further numbers are not counted */
 
-/* Counts numbers by their size. It starts as {0}. */
+/* Counts how often each absolute value occurs. A tally starts as {0}. */
 typedef struct tally {
     double size[TALLY_MAX];
     int uses[TALLY_MAX];
@@ -382,7 +381,7 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* Chooses scale[i] for row and column i, and returns a common divisor, so that as many coefficients as can be are 1. */
+/* Chooses scale[i] for row and column i, and returns a divisor of all equations, to make many coefficients 1. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};
@@ -416,7 +415,7 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
-/* Returns c * scale, rounded to a simple fraction within round-off: 1.0000000000000002 would cost a product. */
+/* Returns c * scale without round-off if it is a multiple of 1/48: 1 costs no product, but 1.0000000000000002 does. */
 static double scale_number(double c, double scale) {
     const double scaled = folding_product(c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
@@ -565,8 +564,8 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* Scales the remaining equations together, then the row and column of each unknown except angles, so that their most
- * frequent numbers become one. */
+/* Scales the remaining equations so that inverse[0] becomes 1. Then scales the row and column of each unknown that is
+ * no angle, so that the most frequent number outside the diagonal becomes 1. */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];
@@ -632,7 +631,7 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 /* Up to these limits, all orders of elimination are tried; above, only the first. */
 #define PERMUTED_MAX 4           /* unknowns */
 #define PERMUTED_SIZE_MAX 4000.0 /* operands in the equations */
-#define LEADS_MAX 5 /* angles, besides the smallest, that are tried as the first to be evaluated */
+#define LEADS_MAX 5              /* largest arrangement.lead that is tried */
 
 /* Adds a hinge's terms, across_i across_j * inverse, to the mass matrix and the forces. */
 static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,
@@ -745,7 +744,7 @@ static void try_scales(const lowering *l, const linear_system *s, arrangement ho
     }
 }
 
-/* Tries all methods of elimination in the order of `like`. */
+/* Tries all methods of elimination with like->order. */
 static void try_order(const lowering *l, const linear_system *s, const arrangement *like,
                       bool permuted, choice *best) {
     for (int scaled = 0; scaled < 2; scaled++) {

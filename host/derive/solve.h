@@ -9,14 +9,14 @@
 
 typedef struct linear_system {
     int n;
-    bool symmetric;               /* a mass matrix: positive definite, so no pivot vanishes */
-    const poly **mass;            /* [n * n], parameters folded */
-    const poly **force;           /* [n] */
+    bool symmetric;     /* true for a mass matrix, which is positive definite: no pivot vanishes */
+    const poly **mass;  /* [n * n] values replace the parameters */
+    const poly **force; /* [n] */
     const symbol *const *unknown; /* [n] */
     const bool *turning; /* [n] true: the unknown is an angle, whose row gets no scale of its own */
     const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
-    /* true: only wanted solutions must be correct, which allows more arrangements. false with contacts: they use the
-     * same matrix, so a new arrangement would change the bits of their steps. */
+    /* true: only wanted solutions must be correct, so more arrangements are possible. Models with contacts need false,
+     * because the contacts use the same matrix: another arrangement would change the bits of their steps. */
     bool sparing;
     /* true: no hinge is eliminated (solve.c), because that multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
     bool precise;

@@ -12,14 +12,14 @@
 
 /* === the null space =========================================================================== */
 
-/* Conditions row . v = 0, with rows of length 1. Without conditions, `row` is NULL. The owner frees it. */
+/* Conditions row . v = 0 on a vector v. Each row has norm 1. If count is 0, `row` is NULL. The owner frees it. */
 typedef struct conditions {
     int columns;
     int count;
     double *row; /* [count * columns] */
 } conditions;
 
-/* Round-off: an entry this close to a whole number becomes whole; a smaller pivot means dependent vectors. */
+/* Entries this close to a whole number are rounded to it. If a pivot is smaller, the vectors count as dependent. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 static double vector_length(const double *row, int columns) {
@@ -51,8 +51,8 @@ static void conditions_add(conditions *c, const conditions *more) {
     }
 }
 
-/* Finds independent vectors that meet all conditions, the rows of basis[columns * columns]; returns their number. They
- * are in reduced echelon form from the last column on. A pivot below `zero` times the largest entry counts as zero. */
+/* Writes a basis of the vectors that meet all conditions to the rows of basis[columns * columns], and returns their
+ * number. A pivot below `zero` times the largest entry of the conditions counts as zero. */
 static int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
     const int64_t entries = (int64_t)c->count * n;
@@ -87,15 +87,15 @@ static int null_space(const conditions *c, double zero, double *basis) {
 
 /* === symmetries =============================================================================== */
 
-/* A pivot below this, relative to the largest entry, is zero. Terms of a millionth of the energy must still count. */
+/* Limits for null_space(). They are so low because terms of a millionth of the energy must still count. */
 #define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
 #define DRAWS 50 /* attempts to find a random state at which all functions are defined */
 
-/* Columns: the entries of A by rows, then those of b. */
+/* The columns of a condition: the entries of A, row by row, then the entries of b. */
 static int columns_of(const equations *e) { return e->count * (e->count + 1); }
 
-/* The change of an energy by the motion of column k alone. */
+/* Returns the change of an energy by a motion in which the entry of column k is 1, and all others are 0. */
 static const poly *change_by(const equations *e, const poly *energy, int k) {
     algebra *a = e->algebra;
     const int n = e->count;
@@ -109,7 +109,7 @@ static const poly *change_by(const equations *e, const poly *energy, int k) {
                     poly_mul(a, poly_derivative(a, energy, moved, 1), poly_symbol(a, with, 1)));
 }
 
-/* Expands sines and cosines with a constant phase, because sin(theta + 0.5) and sin(theta) are not independent. */
+/* Expands sines and cosines such as sin(theta + 0.5), because take_terms() needs linearly independent terms. */
 static const poly *without_phases(algebra *a, const poly *p) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < p->count; i++) {
@@ -140,7 +140,7 @@ static const poly *without_phases(algebra *a, const poly *p) {
     return sum;
 }
 
-/* The power of a generalized force, or the rate of a gap, in the motion of column k alone. */
+/* Returns the power of a generalized force, or the rate of a gap, in the motion of change_by(). */
 static const poly *power_by(const equations *e, const poly *const *row, int k) {
     const int n = e->count;
     const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);
@@ -162,7 +162,7 @@ static int by_mono(const void *left, const void *right) {
                                       : x->column - y->column;
 }
 
-/* Adds a condition for each term of the normal form: its coefficient in the change by each column. */
+/* Adds a condition for each mono in the normal forms change[columns]: row[k] is the mono's coefficient in change[k]. */
 static void take_terms(conditions *s, const poly *const *change) {
     int64_t count = 0;
     for (int k = 0; k < s->columns; k++) {
@@ -200,7 +200,7 @@ static void take_row(const equations *e, conditions *s, const poly *const *row,
     take_terms(s, change);
 }
 
-/* A crossing that sets a symbol changes every momentum that depends on it. */
+/* Adds the condition that the momentum does not depend on the symbol that a crossing sets. */
 static void take_set(const equations *e, conditions *s, const assignment *set,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -308,7 +308,7 @@ static bool is_new(finding *f, const double *v, int columns) {
     return rank == rows;
 }
 
-/* Adds the symmetries that meet all conditions and are new. Returns the number of all that meet them. */
+/* Adds the symmetries that meet all conditions and are new. Returns how many meet them, known ones included. */
 static int find_more(finding *f, const conditions *c, bool of_both, bool conserved) {
     const int count = null_space(c, ZERO_OF_TERMS, f->basis);
     for (int i = 0; i < count; i++) {

@@ -1,9 +1,9 @@
 /* symmetry.h: affine symmetries of a mechanism, and their momenta (Noether, "Invariante Variationsprobleme", 1918).
  *
- * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy by e*dT. dT is
+ * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy T by e*dT. dT is
  * linear in A and b, and each term of its normal form must vanish, so all (A, b) with dT = 0 for every state form a
- * linear space. The potential energy has the same condition. Lagrange's equations give the rate of the momentum P = sum
- * dT/dq_i' (A q + b)_i:
+ * linear space. The same holds for the potential energy V. If dT = 0, Lagrange's equations (equations.h defines L, Q_i
+ * and F) give the rate of the momentum P = sum dL/dq_i' (A q + b)_i:
  *
  *     dP/dt = -dV + sum (Q_i - dF/dq_i') (A q + b)_i + contacts
  *
@@ -22,10 +22,10 @@ typedef struct symmetry {
 } symmetry;
 
 typedef struct symmetries {
-    /* first those with a conserved momentum, then other symmetries of T and V, then shifts (A = 0) of T only */
+    /* sorted: symmetries with a conserved momentum, other symmetries of T and V, shifts (A = 0) that only T permits */
     int count;
     symmetry *each; /* [count] */
-    int broken;     /* number of symmetries of T only that are not shifts */
+    int broken;     /* number of other symmetries of T: V lacks them, and they are no shifts */
     /* values at random states confirm that no affine symmetry of T or V is missing */
     bool complete;
     bool flat; /* T has constant coefficients: every translation and rotation is affine */
@@ -35,7 +35,7 @@ typedef struct symmetries {
  * result. */
 symmetries *symmetries_find(const equations *e);
 
-/* The sum of row[i] times the symmetry's motion of coordinate i: the power of a force, or the rate of a gap. */
+/* Returns the sum of row[i] * s->shift[i]: for a force row[], its power; for a contact's row J, the rate of the gap. */
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row);
 
 #endif

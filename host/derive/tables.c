@@ -16,7 +16,7 @@
 typedef struct turn_value {
     double value;
     double slope; /* derivative by the angle in turns */
-    double size;  /* sum of the absolute addends; the round-off is 1e-16 of this */
+    double size;  /* sum of the sizes of all addends; the round-off of `value` is 1e-16 of it */
 } turn_value;
 
 #define TURN_RAD 6.283185307179586477
@@ -69,8 +69,8 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
                               multiple != 0 ? 1.0 : fabs(cosine)};
 }
 
-/* Evaluates a list of functions of one angle, without rates or reals, to value[t->count]. Phase i is multiple[i] times
- * the angle `turns`; other entries of multiple[] are unused. */
+/* Writes the values of all operations at the angle `turns` to value[t->count]. The list must depend on nothing else. If
+ * operation i is a phase, multiple[i] is the angle's factor in it; other entries of multiple[] are unused. */
 static void turn_evaluate(const op_list *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -100,7 +100,7 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
         case OP_PHASE:  /* a phase has no value */
-        case OP_LINEAR: /* from here on, not in such lists */
+        case OP_LINEAR: /* from here on: never in a list of functions of one angle */
         case OP_RATE:
         case OP_INPUT:
         case OP_ACCEL:
@@ -119,16 +119,16 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots. Straight pieces through the function's values err by at most h^2/8 f'', and by h^2/12
- * f'' on average. Cubic pieces, which also have its slopes, err by h^4/384 f'''' and h^4/720 f''''. A rotating
- * mechanism accumulates the average error, so each knot is corrected by an estimate of it, from differences between
- * knots. Then the average vanishes, and the largest error falls by a third (straight) or a half (cubic). */
+/* A table's pieces meet at knots, h apart. A straight piece has the values of the function f at its knots. Its largest
+ * error is h^2/8 f'', its average error h^2/12 f''. A cubic piece also has the slopes of f. Its errors are h^4/384
+ * f'''' and h^4/720 f''''. A rotating mechanism accumulates the average error, so it is estimated from differences
+ * between knots, and subtracted at the knots. Then the average error vanishes, and the largest error falls by a third
+ * (straight) or a half (cubic). */
 
-/* The tabled functions: operations of a list of functions of one angle. Phase i is multiple[i] times the angle. */
 typedef struct table_functions {
     const op_list *list;
-    const int *multiple; /* [list->count] */
-    const int *function; /* [tables] operations */
+    const int *multiple; /* [list->count] as in turn_evaluate() */
+    const int *function; /* [tables] index of each table's function in the list */
 } table_functions;
 
 /* The number at knot `at`, corrected. Knots form a ring, and `cells` is a power of two. */
@@ -239,7 +239,7 @@ enum { PRODUCTS_MOST = 128 }; /* products in a sum */
 /* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
 typedef struct term_product {
     const unsigned char *power; /* [symbols] */
-    int coefficient;            /* operation of `coefficients` */
+    int coefficient;            /* index of its operation in the list products.coefficients */
 } term_product;
 
 typedef struct product_sum {
@@ -248,8 +248,8 @@ typedef struct product_sum {
 } product_sum;
 
 typedef struct products {
-    op_list *coefficients; /* functions of turn angles alone: without rates, inputs and reals */
-    int *symbol;           /* [symbols] operations of the list: OP_LINEAR, OP_RATE, OP_INPUT */
+    op_list *coefficients; /* they depend on turn angles only */
+    int *symbol; /* [symbols] index of an OP_LINEAR, OP_RATE or OP_INPUT in the step's list */
     int symbols;
     product_sum *result; /* [results of the list] */
     int results;
@@ -261,7 +261,7 @@ typedef struct collecting {
     products *made;
     const op_list *list;
     product_sum *sum; /* [list->count] */
-    int *number;      /* [list->count] symbol, or -1 */
+    int *number;      /* [list->count] index in made->symbol, or -1 if the operation is no symbol */
     refusal *why;
 } collecting;
 
@@ -513,7 +513,7 @@ enum { TRIES = 4096 }; /* angles at which coefficients are compared */
 typedef enum coefficient_kind { IS_NOTHING, IS_CONSTANT, IS_TABLE } coefficient_kind;
 
 typedef struct coefficient {
-    int of; /* operation of the coefficients' list */
+    int of; /* index of its operation in products.coefficients */
     coefficient_kind kind;
     int table;
     double factor; /* factor of the table, or the constant itself */
@@ -524,11 +524,11 @@ typedef struct coefficient {
 typedef struct tabling {
     products *from;
     refusal *why;
-    int *turns;               /* [angles] factors of the turn angles in the looked-up phase */
-    int *multiple;            /* [coefficients->count] multiple of that phase */
-    coefficient *coefficient; /* [count] coefficients of the products, result by result */
+    int *turns;    /* [angles] the tables' phase is the sum of turns[i] * (turn angle i) */
+    int *multiple; /* [coefficients->count] as in turn_evaluate(), for the tables' phase */
+    coefficient *coefficient; /* [count] first all of result 0, then all of result 1, ... */
     int count;
-    int *table; /* [tables] operations of the coefficients' list */
+    int *table; /* [tables] index of each table's function in products.coefficients */
     int tables;
 } tabling;
 
@@ -678,7 +678,7 @@ static void sort_out(tabling *t) {
     free(first);
 }
 
-/* Returns the operation of a result. Its first coefficient is t->coefficient[at]. */
+/* Returns the operation of a result. The result's coefficients begin at t->coefficient[at]. */
 static int write_result(const tabling *t, const op_list *list, lowering *l, int cell, int result,
                         int at) {
     const product_sum *sum = &t->from->result[result];
@@ -759,7 +759,7 @@ static op_list *make(tabling *t, const op_list *list, image_tables form, int bit
         return NULL;
     }
     op_list *made = write_list(t, list, form, bits);
-    /* the coefficients' list becomes the list of the tables' exact functions */
+    /* the results of the coefficients' list become the tables' exact functions */
     *exact = t->from->coefficients;
     t->from->coefficients = NULL;
     free((*exact)->result);

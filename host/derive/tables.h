@@ -1,4 +1,4 @@
-/* tables.h: look-up tables of one angle's functions that replace the sines and divisions of a step's list. */
+/* tables.h: look-up tables for functions of one angle. They replace the sines and divisions of a step's list. */
 #ifndef DERIVE_TABLES_H
 #define DERIVE_TABLES_H
 
@@ -15,10 +15,10 @@ typedef struct refusal {
 /* Default number of cells of a table for one turn. */
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 
-/* Returns `list` with table look-ups. Accelerations (or derivatives) become sum_k c_k(phase) m_k, with products m_k of
- * rates, inputs and reals. Each c_k that is not constant becomes a table; c_k that differ by a factor share one. All
- * c_k must be functions of one phase: a turn angle, a whole multiple, or a sum of turn angles. *exact: a list of the
- * tables' functions. If the list has no such form, returns NULL, and the reason in *why. */
+/* Returns `list` with table look-ups, and in *exact a list of the tables' functions. Accelerations (or derivatives)
+ * become sum_k c_k(phase) m_k. Each m_k is a product of rates, inputs and reals. Each c_k that is not constant becomes
+ * a table; c_k that differ by a factor share one. All c_k must depend on one phase, a sum of turn angles times whole
+ * numbers. If the list has no such form, returns NULL, and the reason in *why. */
 op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
                      refusal *why);
 
