@@ -20,7 +20,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] WH_FLASH = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Smallest allowed damping / (stall torque / no-load speed). Below 1, because a measured damping may be too small. */
+/* The damping must be at least this multiple of stall torque / no-load speed. 0.9 allows for a measurement error. */
 #define LINE_PART WH_R(0.9)
 
 #define ENTRY_BYTES 5U /* number, float value */
@@ -54,7 +54,7 @@ static const char *unit_of(wh_conf_id id) {
 #undef WORD
 }
 
-/* Returns a list (answer.h): the values of a setting that is a choice; of a number, the one word real or whole. */
+/* Returns a list (answer.h) of a choice's values. If the setting is a number, the only item is `real` or `whole`. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
@@ -180,7 +180,7 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if these settings fit the motor: arms' weight, largest set-point, spin-up, supply range, damping, gains. */
+/* True if the settings fit the motor. For example, the motor must lift the arms and reach the largest set-point. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -199,7 +199,7 @@ static bool motor_goes(const wh_conf *conf) {
            value[WH_CONF_damping] >= LINE_PART * line_Nms;
 }
 
-/* Returns a hash of the settings. A CRC-32 detects every change of one float. */
+/* Returns a hash of the settings. A change of one setting always changes the hash, because it is a CRC-32. */
 static uint32_t hash(const wh_conf *conf) {
     uint32_t crc = 0;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -219,7 +219,8 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* Computes the configuration. Returns false if settings contradict each other: then restore them and call again. */
+/* Computes the configuration from the settings. If these contradict each other, returns false, with an incomplete
+ * configuration: the caller must restore the settings and call again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
@@ -317,7 +318,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* Converts members to settings: adds the slot lead to sensor angles, separates the sign of the cell's scale. */
+/* Reverses put_sensors() and put_cell(): turns value[] from members of the configuration into settings. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];

@@ -21,7 +21,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* The computed members of the configuration on which a setting acts (conf.c); WH_CONF_ALONE: none. */
+/* The part of the configuration that conf.c computes from this and other settings; WH_CONF_ALONE: none. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -32,7 +32,7 @@ typedef enum wh_conf_goes {
 typedef struct wh_conf_row {
     wh_real least;
     wh_real most;
-    uint16_t place; /* offset of the member in the configuration */
+    uint16_t place; /* offset of the row's member in wh_rig_config */
     uint8_t number;
     unsigned char kind : 2; /* a wh_conf_kind */
     unsigned char unit : 4;
@@ -40,7 +40,7 @@ typedef struct wh_conf_row {
 } wh_conf_row;
 
 typedef struct wh_conf {
-    /* fills in the program's own configuration, with consistent settings */
+    /* Sets *config to the program's own configuration. Its settings must not contradict each other. */
     void (*own)(wh_rig_config *config);
     const wh_store_memory *memory; /* NULL: settings are not saved */
     wh_rig_config *config;         /* the rig's configuration, updated with each change */
@@ -63,12 +63,12 @@ wh_conf_id wh_conf_find(const char *name); /* WH_CONF_COUNT: no such setting */
 /* Returns the setting's name as a list item (answer.h). */
 const char *wh_conf_name(wh_conf_id id);
 
-/* Sets a setting: a number in its unit, or the index of a choice's value. wh_conf_type() converts typed text. If the
- * value is refused, the configuration does not change. Only while the rig is idle. */
+/* wh_conf_set() takes a number in the setting's unit, or the index of a choice's value. wh_conf_type() takes text. If
+ * they return an error, the configuration does not change. Call them only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 
-/* Resets all settings to their defaults, except in permanent memory. */
+/* Resets all settings to their defaults. Permanent memory does not change until wh_conf_save(). */
 void wh_conf_default(wh_conf *conf);
 
 /* Saves to permanent memory; waits for the memory (hal/settings.h). */

@@ -18,7 +18,7 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number): the configuration's SI unit is `number` of this unit. Units with a conversion come first. */
+/* X(unit, word, number): a setting in this unit is `number` times its member of the configuration. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

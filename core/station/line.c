@@ -67,7 +67,7 @@ wh_line_event wh_line_take(wh_line *line, char character) {
 static bool is_blank(char character) { return character == ' ' || character == TAB; }
 
 void wh_line_split(wh_words *words, char *text) {
-    static const char none[] = ""; /* in RAM, because callers may read words without wh_word_at() */
+    static const char none[] = ""; /* in RAM, unlike a literal: wh_line_number() reads only RAM */
     bool within = false;
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         words->word[i] = none;

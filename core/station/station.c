@@ -12,8 +12,7 @@
 #define END_BYTES 2U /* "\r\n" */
 #define ESCAPE_KEY '\x1b'
 #define HOST_MOST_S WH_R(3600.0)
-/* Version of the protocol, in the answer to `id`, by which a program recognizes the console. */
-#define DIALOGUE 1U
+#define DIALOGUE 1U /* version of the console's protocol */
 
 typedef struct request {
     wh_station *station;
@@ -49,7 +48,7 @@ static void send_answer(request *r, unsigned why) {
     send(r);
 }
 
-/* Posts an order; its answer follows when the rig has answered. Like all do_ functions, returns 0 or the refusal. */
+/* Posts an order to the rig, whose answer becomes the console's. Returns 0, or the refusal if the queue is full. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
     r->station->waits = wh_rig_post(r->rig, event, value);
@@ -77,7 +76,7 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Returns the last step's time. Without wh_station_see(), returns result_ticks: ages are then up to 1 s too small. */
+/* Returns the last step's time, or result_ticks before wh_station_see(): then a result does not age during a run. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -237,7 +236,8 @@ typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
-/* A switch, not function pointers, because the stack analysis would see recursion: some commands call by pointers. */
+/* Uses a switch because a table of function pointers would look recursive to the stack analysis: some commands call
+ * through pointers, and the analysis could not exclude that such a call reaches a command. */
 static unsigned run(request *r) {
 #define COMMAND(name, most, follows, words) 1U + (most),
     static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
@@ -339,11 +339,11 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     }
 }
 
-/* A lost byte could change "start 330" to "start 30", so its line is replaced by one that is refused. */
+/* If a byte is lost, its line becomes invalid: otherwise "start 330" could become "start 30". */
 static void take_byte(wh_station *station, char byte) {
     static const char spoilt[] = {'\1', '\n'};
     if (byte == ESCAPE_KEY) {
-        station->escaped = true; /* the waiting bytes were typed before Escape */
+        station->escaped = true;
         station->spoils = false;
         wh_ring_drop(&station->in, wh_ring_waiting(&station->in));
     }
@@ -384,7 +384,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* the next line waits until the rig has answered the order */
+        return;
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {

@@ -18,8 +18,8 @@ static void put(uint8_t *bytes, uint32_t number) {
     bytes[3] = (uint8_t)(number >> 24);
 }
 
-/* Returns the sequence number of a slot's record, or 0 if the record is not valid. *length gets the length with head
- * and CRC. Reads in pieces, because there is no memory for a second record. */
+/* Returns the sequence number of a slot's record, or 0 if the record is not valid. *length gets the record's length,
+ * including head and CRC. Reads a few bytes at a time to save memory. */
 static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned *length) {
     uint8_t bytes[HEAD_BYTES];
     uint32_t sequence = 0;

@@ -9,8 +9,7 @@
 #define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
 #define EVENT_BYTES 2U
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
-/* bytes before a frame on the line: a zero, the first COBS code */
-#define BEFORE 2U
+#define BEFORE 2U /* bytes in tel->line before the frame: a zero and the first COBS code */
 #define TEXT_BYTES 96U
 
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
@@ -41,7 +40,7 @@ static bool triggers(const wh_capture *capture, uint8_t flags) {
     return false;
 }
 
-/* Records a step at `now_ticks`, less than 65 ms after the previous step (16 bits). step->flags lacks TRIGGERED. */
+/* Records a step. Steps must be less than 65 ms apart, because wh_captured has only 16 bits of their times. */
 static void capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
     wh_captured *to = &capture->step[capture->next];
     if (capture->count == 0) {
@@ -173,7 +172,7 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
     (void)send_frame(s, WH_TEL_EVENT);
 }
 
-/* Sends the capture's next frame, if there is space: these frames wait and are never dropped. */
+/* Sends the capture's next frame, or waits if the output ring has no space: none of these frames is dropped. */
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
@@ -255,7 +254,7 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* if many pulses fill the line, the ends of pulses are dropped first */
+    if (seen->ended) { /* this event is the first to be dropped if the output ring has little space */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
                    2U * LINE_BYTES_OF(EVENT_BYTES); /* space for later data of this step */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
@@ -443,7 +442,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
     if (!wh_line_number(word, &wanted)) {
         return WH_STATION_TEL_RATE;
     }
-    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* the word has at most nine digits */
+    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* fits, because it has at most nine digits */
     if ((wh_real)(int32_t)wanted != wanted || per_s == 0 || per_s > most || most % per_s != 0 ||
         is_too_fast(tel->format, per_s)) {
         return WH_STATION_TEL_RATE;
@@ -487,7 +486,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-/* Subcommands without (ALONE_ROWS) and with an argument (WITH_ROWS): X(what, word) */
+/* Subcommands: X(what, word). ALONE_ROWS have no argument, WITH_ROWS have one. */
 #define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \
