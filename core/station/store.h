@@ -29,8 +29,8 @@ typedef struct wh_store_memory {
  * payload's size, or -1 if there is no valid record. *sequence gets the record's sequence number, or 0. */
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
 
-/* Saves a payload of `count` <= WH_STORE_PAYLOAD_MOST bytes, which begins at bytes[WH_STORE_HEAD_BYTES]. bytes[] needs
- * count + WH_STORE_FIXED_BYTES bytes. Returns the sequence number. A failure returns 0 and keeps the previous record. */
+/* Saves a payload of `count` <= WH_STORE_PAYLOAD_MOST bytes. It begins at bytes[WH_STORE_HEAD_BYTES], and bytes[] has
+ * count + WH_STORE_FIXED_BYTES elements. Returns the sequence number. A failure returns 0 and keeps the old record. */
 uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count);
 
 #endif
