@@ -2,21 +2,21 @@
  *
  * A driven run cannot distinguish a misplaced sensor from a force out of line with the masses: both shift the phase
  * equally. A rotor that swings freely shows the direction in which the arms hang, and so the positions of the sensors.
- * With the motor's leads open, only gravity and friction move the rotor (see "the rotor" below). If q(t) is a motion,
- * -q(t) is one, too. So half swings to the right and to the left take equally long, except for the loss from swing to
- * swing. A pulse comes at the slot's leading edge. For a sensor at the angle p, the arms are then at p - lead on the
- * way to the right, and at p + lead on the way to the left. So the lead cancels, and a half swing on the right seems
- * shorter than one on the left by 4 p/v, with v the speed at the bottom. The difference is largest for a slow rotor.
+ * With the motor's leads open, only gravity and friction move the rotor (see "the rotor" below). Without friction,
+ * half swings to the right and to the left would take equally long. A pulse comes at the slot's leading edge. For a
+ * sensor at the angle p, the arms are then at p - lead on the way to the right, and at p + lead on the way to the left.
+ * So the lead cancels, and a half swing on the right seems shorter than one on the left by 4 p/v, with v the speed at
+ * the bottom. The difference is largest for a slow rotor.
  *
  * The first guess needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). A half swing
  * takes 2 K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small, so
  * their period gives g = S g0/I. The duration of the first swing then gives its amplitude, and the number of swings
- * gives the friction. This guess, from pulses alone, has an error of some 10 %.
+ * gives the friction. This guess has an error of some 10 %.
  *
  * Gauss's regression refines the guess. The unknowns are q and q' at the first backward passage of the bottom, g,
  * Coulomb and viscous friction over I, and both sensors' positions. The data are the times of all pulses. In the last
- * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. One iteration
- * (pass) may not converge. So the first passes add a variance to each pulse, which falls from pass to pass.
+ * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. Large residuals
+ * could prevent convergence. So the first passes (iterations) add a variance to each pulse, less from pass to pass.
  *
  * The confidence interval is that of the regression, widened by floor_rad, and by large residuals of the pulses. After
  * the rotor has come to rest, each control step does a part of a pass; the whole takes some seconds. */
@@ -49,7 +49,7 @@ void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS])
 void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
                    wh_real weight);
 
-/* Factor the matrix (some 1,000 instructions); then solve: normal->right gets the unknowns. */
+/* Factor the matrix, in some 1,000 instructions. After that, wh_normal_solve() writes the unknowns to normal->right. */
 void wh_normal_factor(wh_normal *normal);
 void wh_normal_solve(wh_normal *normal);
 
@@ -88,15 +88,15 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-/* Index of sensor 1's position in the unknowns: both positions follow those of the rotor. */
+/* Index of sensor 1's position among the unknowns, which are the WH_FREE_ values and then both sensors' positions. */
 #define WH_SWING_PLACE WH_FREE_CAUSES
 
 #define WH_SWING_TURNING 6U /* maximum number of pulses stored from the turns before the swings */
 #define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
 #define WH_SWING_LAST 10U   /* number of stored pulse times of sensor 1 */
 
-/* Pieces of the work, one per control step: integrate up to a pulse and use it, factor and solve the equations, begin
- * another pass, make another guess, finish. */
+/* Pieces of the work, one control step each. Only WH_SWING_GOES takes several: it integrates up to a pulse and uses
+ * it. WH_SWING_PASSES begins a pass. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
     WH_SWING_FACTORS,
@@ -126,17 +126,17 @@ typedef struct wh_swing_config {
     wh_real lead_rad;  /* angle from arms to sensor at a pulse, in either direction of rotation */
     wh_real most_rad;  /* largest distance of a sensor from its nominal position, at 95 % */
     wh_real jitter_s;  /* standard deviation of the pulse times */
-    wh_real rough_rad; /* further standard deviation of a pulse's angle, as by a coupling's twist */
+    wh_real rough_rad; /* further standard deviation of a pulse's angle: a coupling's twist etc. */
     /* Calibration uncertainty, at 95 %: errors of slot and lead, and a friction that depends on the direction. */
     wh_real floor_rad;
-    wh_real wide_rad; /* largest useful half-width */
-    wh_real off_rad;  /* a result is doubtful if sensor 1's error exceeds its half_rad by this */
+    wh_real wide_rad;      /* largest half_rad[0] of a useful result */
+    wh_real off_rad;       /* a result is doubtful if |place_rad[0]| - half_rad[0] exceeds this */
     unsigned swings_least; /* least number of half swings */
 } wh_swing_config;
 
 typedef struct wh_swung {
     wh_swing_why why;
-    wh_real place_rad[WH_RIG_SENSORS]; /* position of each sensor, if found */
+    wh_real place_rad[WH_RIG_SENSORS]; /* each sensor's distance from its nominal position */
     wh_real half_rad[WH_RIG_SENSORS];  /* half-widths of the intervals, 95 % */
     unsigned swings;                   /* half swings used */
 } wh_swung;
@@ -147,17 +147,16 @@ typedef struct wh_swing {
     bool any;
     bool forward; /* the rotor turned forwards at the last pulse */
     uint8_t sensor;
-    /* the rotor has passed sensor 1 backwards, first at kept_ticks[first] */
-    bool swings;
+    bool swings; /* the rotor has passed sensor 1 backwards */
     wh_swing_piece piece;
-    unsigned first;
-    unsigned passed; /* later passages of sensor 1, stored or not */
+    unsigned first;  /* index in kept_ticks of the first backward pulse of sensor 1 */
+    unsigned passed; /* number of sensor 1's pulses from that one on, stored or not */
     unsigned kept;
     unsigned start; /* number of failed guesses */
     unsigned pass;
     unsigned at;     /* index of the next pulse */
     unsigned fits;   /* pulses used in this pass */
-    unsigned strays; /* impossible pulses in this pass */
+    unsigned strays; /* pulses not used in this pass: too far from the predicted angle */
     /* Pulses used of each sensor: those of sensor 1 alone would also fit the mirror image of the swing. */
     unsigned fits_of[WH_RIG_SENSORS];
     uint32_t ticks;
@@ -192,9 +191,9 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call this in every control step; while wh_swing_works(), each step at rest does a bounded part of the work. `swings`:
- * the motor's leads have been open since the rotor last turned forwards in a run. `rests`: the rotor is at rest. If it
- * is not at rest when `swings` becomes false, the swing was not free. */
+/* Call this in every control step. While wh_swing_works(), each step at rest does a bounded part of the work. `swings`:
+ * the motor's leads are open after a run. They must open while the rotor still turns forwards. `rests`: the rotor is at
+ * rest. When `swings` becomes false, it must be at rest, or else the result is WH_SWING_NOT_FREE. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 

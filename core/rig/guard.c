@@ -32,17 +32,16 @@ WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 
 void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}; }
 
-/* Pulses of one sensor closer than at 1,000 rpm are no turns: 36 V give at most 900 rpm. */
+/* Duration of a turn at 1,000 rpm. Pulses of one sensor that come sooner are ignored: 36 V give at most 900 rpm. */
 #define BOUNCE_TICKS 60000U
-/* A turn is slower if it takes this many times as long as the last one. In a swing only the last two intervals are. */
-#define LONGER WH_R(1.02)
-#define FASTER WH_R(1.01) /* for a trip: least gain of speed over successive faster turns */
+#define LONGER WH_R(1.02) /* least ratio of a turn's duration to that of the turn before */
+#define FASTER WH_R(1.01) /* least first_ticks/turn_ticks of wh_off.of[] for WH_TRIP_RUNS_ON */
 #define ALTERNATE_PAIR 4U /* least wh_off.alternate that shows two turns of a sensor */
 #define ALTERNATE_RISE 6U /* least wh_off.alternate that shows three turns of a sensor */
 #define ALONE_PAIR 2U     /* least wh_off.alone that shows two turns of the sensor */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-/* more pulses than jitter makes while the slot of a hanging rotor is at a sensor */
+/* Least wh_off.alone for over-speed. If a rotor hangs with its slot at a sensor, jitter makes fewer pulses. */
 #define ALONE_SURE 6U
 
 static uint8_t one_more(uint8_t count) {

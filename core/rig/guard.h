@@ -57,7 +57,7 @@ typedef struct wh_guard_config {
     wh_real load_silence_max_s; /* longest time without a load sample */
     /* The load counts as constant if it changes by less than this number times the square of the speed. */
     wh_real load_still_kgm;
-    uint32_t stuck_pulses; /* pulses under a constant load that show a stuck load cell */
+    uint32_t stuck_pulses; /* a load that is constant over this many pulses is stuck */
     wh_real supply_min_V;
     wh_real supply_max_V;
     wh_real rest_s;       /* a rotor without a pulse for this long is at rest */
@@ -65,33 +65,33 @@ typedef struct wh_guard_config {
     wh_real hand_radps;   /* fastest rotor that a hand can turn */
 } wh_guard_config;
 
-/* Checks of the pulses while the motor is off or brakes; they do not depend on the commands. A turn is the time between
- * two pulses of one sensor, so gravity cancels:
+/* Checks of the pulses while the motor is off or brakes. They do not depend on the commands. A turn is the time between
+ * two pulses of one sensor. In a turn, gravity does no work:
  *
- * - A braked rotor's mean speed falls by 2 pi c/I in a turn. c is the damping of the torque line, I at most six times
- * the configured inertia. If it falls by less than half of that, the enable goes off until the next run (`released`).
- * - With the enable off only friction acts, and turns only get slower.
+ * - A braked rotor's mean speed falls by 2 pi c/I in a turn. c is the damping of the torque line. If the loss is below
+ * braked_radps (half the loss at six times the configured I), the enable goes off until the next run (`released`).
+ * - With the enable off, only friction acts. So turns only get slower.
  *
  * A rotor that swings about its hanging position fires a sensor twice in each swing. The intervals between these pulses
- * get shorter as the swing decays, and are no turns. Intervals count as turns in three cases:
+ * are no turns, and get shorter as the swing decays. An interval counts as a turn in three cases:
  *
- * - Both sensors fire alternately. A swing that reverses between the two edges of sensor 2's slot also gives the pulses
- * 1, 2, 1. So an interval of sensor 1 is a turn only if a pulse of sensor 2 follows; an interval of sensor 2 always is.
- * - One sensor fires alone (the other is dead), faster than in any swing. Two intervals of a swing last a period, at
- * least 2 pi sqrt(I/S g), so they cannot both show a speed above 2 sqrt(S g/I). The bound allows for half the inertia.
+ * - The sensors fire alternately. Then an interval of sensor 2 is a turn. An interval of sensor 1 is a turn only if
+ * sensor 2 fires next: a swing that reverses between the edges of sensor 2's slot also gives the pulses 1, 2, 1.
+ * - One sensor fires alone, because the other is dead, and two intervals show a speed above 2 sqrt(S g/I), with I half
+ * the configured inertia. In a swing, two intervals last a period, at least 2 pi sqrt(I/S g). So one of them is slower.
  * - After `released`, the intervals of a sensor that fires alone get longer three times in succession, by at least 2 %
  * each. At the end of a swing that friction stops, this happens at most twice. */
 typedef struct wh_off {
     bool released;
     bool doubted; /* released because of one sensor's pulses alone */
-    bool asks;    /* released because of alternating pulses: trips if the other sensor fires next */
+    bool asks;    /* released by alternating pulses: the rig trips if the other sensor fires next */
     uint8_t sensor;    /* number of the last pulse's sensor, 1 or 2; 0: no pulse yet */
-    uint8_t alternate; /* number of successive pulses, each after one of the other sensor */
-    uint8_t alone;     /* number of successive pulses, each after one of the same sensor */
+    uint8_t alternate; /* successive pulses, each preceded by a pulse of the other sensor */
+    uint8_t alone;     /* successive pulses, each preceded by a pulse of the same sensor */
     struct wh_off_turns {
         uint32_t ticks;
-        uint32_t turn_ticks;  /* time from the previous pulse to the last one, or 0 */
-        uint32_t first_ticks; /* duration of the turn before the first faster turn */
+        uint32_t turn_ticks;  /* time between the sensor's last two pulses; 0 before its second */
+        uint32_t first_ticks; /* duration of the turn before those that `faster` counts */
         uint8_t faster;       /* number of successive turns faster than the one before */
         uint8_t longer;       /* number of successive turns slower by the factor LONGER */
         bool seen;
@@ -108,21 +108,21 @@ typedef struct wh_guard {
     uint32_t rejected_before; /* rejected pulses when the motor began to drive */
     uint32_t load_ticks;      /* time of the last load sample, or of the start */
     uint32_t load_pulses;     /* accepted pulses at the last load sample */
-    uint32_t still_pulses;    /* load samples with a new pulse since the load last changed */
+    uint32_t still_pulses;    /* pulses since the load last changed, at most one per load sample */
     wh_real still_N;          /* the load at its last change */
     wh_off off;
 } wh_guard;
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True if a set-point is safe for loop and shaft, with gravity compensation if `compensated`. NaN is not safe. */
+/* True if a set-point is within its configured limits. `compensated`: with gravity compensation. NaN gives false. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool compensated);
 
-/* Factor on the speed gained in a fall from the top, for a rotor of half the configured inertia, with a margin. */
+/* Half the configured inertia would give sqrt(2) times wh_guard_config.fall_radps. The rest is a margin. */
 #define WH_GUARD_LIGHTER WH_R(1.5)
 
-/* Returns the largest mean speed between two pulses, rad/s, of a rotor whose turns the drive keeps at limit_radps or
- * below. It allows for the excess config->over, and for `falls` times the speed gained in a fall from the top. */
+/* Returns a bound on the mean speed between two pulses, rad/s. A turn's speed may exceed limit_radps by the fraction
+ * config->over. Gravity may add as much energy as in a fall that gains the speed falls * config->fall_radps. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. The
@@ -159,12 +159,12 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Checks for over-speed, in each step and state: a turn above the limit, or two successive pulse intervals above the
- * bound. A speed that rises faster at two successive pulses than the drive can accelerate the rotor is over-speed, too.
- * `reason` is the trip: WH_TRIP_OVERSPEED, or another with the motor off.
+/* Checks for over-speed, in each step and state: a turn above limit_radps, or two successive pulse intervals with a
+ * speed above bound_radps. One such interval is enough if the speed rises faster at two successive pulses than the
+ * drive can accelerate the rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or another with the motor off.
  *
- * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the check needs
- * pulses->alternate of at least `alternate` (0 while the motor drives). */
+ * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the check does nothing
+ * if pulses->alternate is less than `alternate`, which is 0 while the motor drives. */
 #define WH_GUARD_BRAKES 1U /* `alternate` with the enable on */
 /* `alternate` with the enable off: larger, because one false pulse corrupts several turns. */
 #define WH_GUARD_COASTS 6U
@@ -217,8 +217,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* The duration of a constant load is counted in pulses, because the load of a jammed rotor is constant, too. Each
-     * sample counts at most one pulse, because in a late controller several older pulses may wait. */
+    /* The duration of a constant load is counted in pulses, because the load of a jammed rotor is constant, too. If the
+     * controller is late, several pulses may have come before a sample: they count as one. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;

@@ -7,20 +7,19 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* Limits of a turn that counts: largest gap between nodes, in sample periods; least number of samples per outlier. */
-#define GAP_PERIODS WH_R(3.5)
-#define OUTLIERS_PER_TURN 10U
+/* A turn that violates one of these limits does not count. */
+#define GAP_PERIODS WH_R(3.5) /* largest gap between nodes, in sample periods */
+#define OUTLIERS_PER_TURN 10U /* least number of samples per outlier */
 
-/* So many successive equal samples show a frozen load: even without noise, a peak at 100 rpm has fewer. */
+/* This many successive equal samples show a frozen load. The load's peak at 100 rpm has fewer, even without noise. */
 #define FROZEN_SAMPLES 8U
 
-/* An outlier deviates from the prediction by more than six standard deviations plus the effect of 1 % in speed. */
+/* An outlier deviates by more than 6 standard deviations plus 2 % of the first order: the effect of 1 % more speed. */
 #define OUTLIER_DEVIATIONS WH_R(6.0)
 #define OUTLIER_PART WH_R(0.02)
 
-/* Largest change of a turn's duration: 1/64 for a turn that counts, 1/256 for one that corrects the inertia. */
-#define STEADY_PART 64U
-#define STILL_PART 256U
+#define STEADY_PART 64U /* a turn counts if its duration changes by at most 1/64 */
+#define STILL_PART 256U /* a turn corrects the inertia if its duration changes by at most 1/256 */
 
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
     lockin->stage = WH_LOCKIN_WAITS;
@@ -89,7 +88,7 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
-/* Drops samples older than the turn, except for the newest of them; at most WH_LOCKIN_STALE_AT_ONCE. */
+/* Drops at most WH_LOCKIN_STALE_AT_ONCE samples older than the turn. The last one dropped stays in taken_N. */
 static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
         if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
@@ -122,7 +121,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* If the queue is full, its samples belong to no turn, or the turn is too slow to be measured. */
+    /* A full queue drops its oldest sample. No result is lost: there is no turn, or it is too slow to be measured. */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -161,7 +160,7 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     lockin->place = place;
 }
 
-/* Does the second half of a node's work: its weight. */
+/* Does the second half of a node's work: skips an outlier, or else adds the node before it to the sums. */
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
@@ -175,7 +174,7 @@ static void weigh_node(wh_lockin *lockin) {
             lockin->next.outliers++;
             return;
         }
-        node->force_N -= residual_N; /* at a pulse: take the predicted load */
+        node->force_N -= residual_N; /* never skip a pulse: use the predicted load */
         residual_N = WH_R(0.0);
     }
     node->residual_N = residual_N;
@@ -238,7 +237,7 @@ static void place_next(wh_lockin *lockin) {
     place_node(lockin, ticks, force_N, place);
 }
 
-/* Does `halves` half nodes. Returns true when the turn is finished. */
+/* Does up to `halves` steps of work, two for each node. Returns true when the turn is finished. */
 static bool take_samples(wh_lockin *lockin, unsigned halves) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         drop_stale(lockin, lockin->next.begin_ticks);
@@ -304,7 +303,7 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* A gap does not invalidate the prediction, unless the turn also has outliers: the load may then have changed. */
+    /* A turn with a gap leaves the prediction valid. If it also has outliers, however, the load may have changed. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;
@@ -340,7 +339,6 @@ static bool last_piece(wh_lockin *lockin, unsigned pieces) {
 }
 #endif
 
-/* Returns true when the shape is finished. */
 static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_real speed_radps =
         WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;
