@@ -81,9 +81,9 @@ int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *satu
         *saturated += number <= high + (WH_R(1.0) + place * WH_ABS(high)) ? 0U : 1U;
         return format->high;
     }
-    const int32_t near = (int32_t)(WH_ABS(number) < WH_R(0x1p23)
-                                       ? number + (number < WH_R(0.0) ? WH_R(-0.5) : WH_R(0.5))
-                                       : number);
+    /* a float of 2^23 or more is an integer: the sum would be rounded */
+    const wh_real half = WH_DOUBLE || WH_ABS(number) < WH_R(0x1p23) ? WH_R(0.5) : WH_R(0.0);
+    const int32_t near = (int32_t)(number < WH_R(0.0) ? number - half : number + half);
     return wh_fixed_limit(near, format->low, format->high, saturated);
 }
 

@@ -85,10 +85,9 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 /* Returns a hash of steps, saturations, angles and reals, equal on all machines; 0 for a state that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* Conversions in floating point; no step calls them. wh_fixed_of() rounds to the nearest number, ties away from zero;
- * if wh_real is double, it rounds numbers from 2^23 on towards zero. A value beyond the range gives the nearer end, and
- * NaN the low end; both increment *saturated. Because the ends may be rounded, a value up to one unit (float: plus the
- * end's round-off) beyond an end is not counted. */
+/* Conversions in floating point; no step calls them. wh_fixed_of() rounds to the nearest number, ties away from zero. A
+ * value beyond the range gives the nearer end, and NaN the low end; both increment *saturated. Because the ends may be
+ * rounded, a value up to one unit (float: plus the end's round-off) beyond an end is not counted. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

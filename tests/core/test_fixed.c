@@ -327,6 +327,16 @@ TEST(fixed, edges) {
                                 state.input[0]);
         TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_raw_input(&scene, &state, 1, raw));
     }
+#if WH_DOUBLE
+    for (long i = 0; i < CASES; i++) { /* the nearest integer, for numbers of any size */
+        const int32_t x = draw_number() >> (draw() % 30U);
+        const wh_real off = WH_R(0.49) * ((wh_real)draw_number() / WH_R(0x1p31));
+        uint32_t held = 0;
+        const wh_fixed_format format = {0, INT32_MIN + 1, INT32_MAX};
+        const int32_t within = wh_fixed_limit(x, format.low, format.high, &held);
+        TEST_ASSERT_EQUAL_INT32(within, wh_fixed_of(&format, (wh_real)within + off, &held));
+    }
+#endif
     /* converted to fixed point and back, a number keeps the precision of a float */
     for (long i = 0; i < CASES; i++) {
         const int32_t x = draw_number() >> 8;
