@@ -137,7 +137,10 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
         const bool late = w->slack[k] > WH_R(0.0) && !(gone > w->due[k]);
         const bool stands = w->mode[k] == 0 && WH_ABS(value - w->stood[k]) <= WH_ABS(w->stood[k]);
         passed |= m->value[k] >= WH_R(0.0) && !late && !stands ? 1U << k : 0U;
-        w->mode[k] = m->value[k] >= WH_R(0.0) && late ? (int8_t)0 : w->mode[k];
+        if (m->value[k] >= WH_R(0.0) && late) {
+            w->mode[k] = 0;
+            w->stood[k] = value;
+        }
     }
     wh_contact_set_sides(of, w, passed, m->signal);
 }

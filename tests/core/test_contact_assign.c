@@ -77,6 +77,36 @@ TEST(contact_assign, each_component_can_be_assigned) {
     }
 }
 
+/* A crossing that turned back, and is still near zero at the end of a trial step, becomes undecided. It has a sign
+ * again when its value has changed by more than this value. */
+TEST(contact_assign, an_undecided_crossing_saves_its_value) {
+    uint64_t seed = 3011;
+    for (unsigned round = 0; round < 300; round++) {
+        wh_contact_work w;
+        wh_contact_state s;
+        wh_margins m;
+        const unsigned n = 1U + draw_one_of(&seed, BENCH_COORDS);
+        const unsigned k = draw_crossing(&seed, n, draw_one_of(&seed, n + 1U), 0, &w, &s);
+        const wh_real value = w.mode[k] * draw_broken(&seed, 1, 1000);
+        const wh_real factor = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
+        for (unsigned i = 0; i < WH_CONTACTS_MAX; i++) {
+            m.value[i] = WH_R(1.0);
+            w.slack[i] = WH_R(0.0);
+            w.stood[i] = (wh_real)__builtin_nan("");
+        }
+        w.slack[k] = WH_R(0.5) * WH_ABS(value);
+        w.due[k] = WH_ABS(value);
+        m.signal[2 * k] = value;
+        wh_contact_pass(&bench_now.system, &m, &w);
+        TEST_ASSERT_EQUAL_INT(0, w.mode[k]);
+        TEST_ASSERT_TRUE(w.stood[k] == value);
+        w.slack[k] = WH_R(0.0);
+        m.signal[2 * k] = factor * value;
+        wh_contact_pass(&bench_now.system, &m, &w);
+        TEST_ASSERT_EQUAL_INT(factor < WH_R(2.0) ? 0 : value > WH_R(0.0) ? 1 : -1, w.mode[k]);
+    }
+}
+
 /* A turn angle must be below 1e9 rad, any other component below 1e15; NaN is invalid. The fault names the component. */
 TEST(contact_assign, invalid_values_are_refused_by_name) {
     uint64_t seed = 1123;
