@@ -658,8 +658,7 @@ static const atom *group_of(algebra *a, const poly *p) {
 static const poly *product_of(algebra *a, const poly *left, const poly *right) {
     if (left->count > 1 && right->count > 1 &&
         (double)left->count * right->count > PRODUCT_TERMS_MAX) {
-        const mono_factor f = {group_of(a, right), 1.0};
-        return poly_mul(a, left, poly_of_term(a, 1.0, mono_make(a, &f, 1, TRIG_NONE, NULL)));
+        return poly_mul(a, left, poly_of_atom(a, group_of(a, right), 1.0));
     }
     poly_sum sum = {0};
     poly_sum row = {0};

@@ -201,16 +201,6 @@ const poly *forces_power(algebra *a, const statement_force *forces, int count, t
 
 /* === access to finished equations ============================================================= */
 
-place equations_kinetic_place(const instance *inst) {
-    const mechanism *m = inst->mechanism;
-    for (int i = 0; i < m->term_count; i++) {
-        if (m->terms[i].kind == TERM_T && instance_has(inst, m->terms[i].effect)) {
-            return m->terms[i].at;
-        }
-    }
-    return m->at;
-}
-
 const poly *equations_force(const equations *e, int i) {
     algebra *a = e->algebra;
     return poly_sub(a, poly_sub(a, e->applied[i], e->velocity[i]), e->potential[i]);

@@ -100,8 +100,6 @@ void equations_free(equations *e); /* `e` may be NULL */
 enum { LAW_POLYS = 5 };
 const poly *contact_law_poly(const equations *e, int k, int i);
 
-place equations_kinetic_place(const instance *inst);
-
 /* A poly_value, with a uint64_t as its context: the value of a coordinate, rate or input at the generic state *seed. It
  * is a hash of seed and symbol, between 0.1 and 1.8 for even seeds, and between -0.9 and 0.8 for odd seeds. */
 double equations_generic(void *seed, const symbol *s, int primes);

@@ -156,13 +156,12 @@ static int dependent_row(const equations *e) {
     return found;
 }
 
-/* The place of the equation in this row; of the mechanism for -1. */
-static place place_of_equation(const equations *e, int row) {
-    const mechanism *m = e->instance->mechanism;
-    for (int t = 0, at = 0; t < m->term_count; t++) {
-        if (m->terms[t].kind == TERM_EQUATION && instance_has(e->instance, m->terms[t].effect) &&
-            at++ == row) {
-            return m->terms[t].at;
+/* The place of active statement number `which` of this kind, counted from 0; of the mechanism if there is none. */
+static place place_of(const instance *inst, term_kind kind, int which) {
+    const mechanism *m = inst->mechanism;
+    for (int i = 0; i < m->term_count; i++) {
+        if (m->terms[i].kind == kind && instance_has(inst, m->terms[i].effect) && which-- == 0) {
+            return m->terms[i].at;
         }
     }
     return m->at;
@@ -181,7 +180,7 @@ static void report_singular_system(const equations *e, diags *errors) {
     const int row = dependent_row(e);
     const bool empty = row >= 0 && row_is_empty(e, row);
     diag_error(
-        errors, place_of_equation(e, row),
+        errors, place_of(e->instance, TERM_EQUATION, row),
         empty ? "a constraint between states: differentiate it until a highest derivative appears"
               : "look for two equivalent equations, or for one without its highest derivative",
         "the equations of '%s' cannot be solved for the highest derivatives: this equation %s",
@@ -347,7 +346,7 @@ static bool equations_check_solvable(equations *e, diags *errors) {
     case NOT_POSITIVE:
         taken = negative_part(e, &negative);
         diag_error(
-            errors, taken != NULL ? taken->at : equations_kinetic_place(e->instance),
+            errors, taken != NULL ? taken->at : place_of(e->instance, TERM_T, 0),
             "look for a negative mass or a product of two rates, such as x'*y'; or write the equations themselves, with state and equation",
             "the kinetic energy of '%s' is negative for some motion at every state tried",
             of->name);
@@ -377,7 +376,7 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
     char hint[RATE_HINT_SIZE];
     for (int i = 0; i < m->input_count; i++) {
         if (poly_contains(momentum, m->inputs[i], 0)) {
-            diag_error(errors, equations_kinetic_place(e->instance),
+            diag_error(errors, place_of(e->instance, TERM_T, 0),
                        input_rate_hint(m->inputs[i], hint),
                        "the kinetic energy depends on input '%s', which has no declared rate",
                        m->inputs[i]->name);
@@ -466,8 +465,8 @@ static bool derive_system(equations *e, diags *errors) {
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
     const int n = e->count;
-    const poly **left = alloc(n, sizeof *left);
-    const term **term_at = alloc(n, sizeof *term_at);
+    const poly **left = algebra_room(a, n, sizeof *left);
+    const term **term_at = algebra_room(a, n, sizeof *term_at);
     bool good = true;
     int rows = 0;
     for (int t = 0; t < m->term_count && rows < n; t++) {
@@ -506,11 +505,8 @@ static bool derive_system(equations *e, diags *errors) {
             }
         }
         e->potential[r] = poly_substitute(a, left[r], drop_highest, e);
-        e->velocity[r] = poly_number(a, 0.0);
-        e->applied[r] = poly_number(a, 0.0);
+        e->velocity[r] = e->applied[r] = poly_number(a, 0.0);
     }
-    free(left);
-    free(term_at);
     return good;
 }
 

@@ -91,6 +91,15 @@ static bool in_state(const layout *map, int i, int primes) {
     return primes == 0 && !map->conserved->closed;
 }
 
+int layout_component(const layout *map, int i, int primes) {
+    if (!in_state(map, i, primes)) {
+        return -1;
+    }
+    return primes == 0 && map->angle_number[i] >= 0
+               ? map->angle_number[i]
+               : map->angles + map->real_number[i * map->order_room + primes];
+}
+
 static int add_real(layout *map, int i, int primes) {
     map->real[map->reals] = (component){i, primes};
     return map->reals++;
@@ -131,8 +140,7 @@ bool layout_arrange(layout *map, const poly *const *dynamics, int count) {
         for (int k = 0; k < count && turns; k++) {
             turns = lower_only_in_waves(dynamics[k], s);
         }
-        map->angle_number[i] = turns ? map->angles : -1;
-        map->place[i] = turns ? map->angles : -1;
+        map->place[i] = map->angle_number[i] = turns ? map->angles : -1;
         if (turns) {
             map->angle[map->angles++] = (component){i, 0};
         }

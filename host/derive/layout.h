@@ -40,6 +40,9 @@ typedef struct layout {
  * arrays. */
 bool layout_arrange(layout *map, const poly *const *dynamics, int count);
 
+/* The component of the state with this derivative of unknown i, angles first; -1 if it is not in the state. */
+int layout_component(const layout *map, int i, int primes);
+
 /* Makes p ready for a list: folds it, and replaces conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
 

@@ -1,12 +1,9 @@
 /* program.c: the lists of an instance: step, contacts, ledger, outputs. */
 #include "host/derive/program.h"
 
-#include <stdlib.h>
-
 #include "core/contact.h"
 #include "core/hash.h"
 #include "core/step/ledger_step.h"
-#include "host/base/alloc.h"
 #include "host/derive/equations.h"
 #include "host/derive/tables.h"
 #include "host/lang/value.h"
@@ -74,7 +71,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     const int n = map->equations->count;
     const int stride = WH_LAW_ROWS + 2 * map->coordinates;
     op_list *t = op_list_new(map->angles, laws->forced * stride);
-    int *pushed = alloc(n, sizeof *pushed);
+    int *pushed = algebra_room(map->equations->algebra, n, sizeof *pushed);
     const poly **row = polys(map, n + 3);
     linear_system load = *s;
     load.force = row;
@@ -105,7 +102,6 @@ static op_list *make_forces(layout *map, const linear_system *s) {
         }
         lower_done(&l);
     }
-    free(pushed);
     op_list_prune(t);
     return t;
 }
@@ -125,20 +121,6 @@ static int pin_of(const layout *map, const contact_law *law) {
         pin = map->place[i];
     }
     return pin;
-}
-
-/* Returns the state component that a crossing sets, or -1 for a conserved coordinate. */
-static int component_of(const layout *map, const assignment *set) {
-    const component *const lists[] = {map->angle, map->real};
-    const int counts[] = {map->angles, map->reals};
-    for (int k = 0; k < 2; k++) {
-        for (int i = 0; i < counts[k]; i++) {
-            if (lists[k][i].unknown == set->symbol->index && lists[k][i].primes == set->primes) {
-                return i + (k == 0 ? 0 : map->angles);
-            }
-        }
-    }
-    return -1;
 }
 
 /* Returns the `direction` of a stop (core/contact.h). */
@@ -180,7 +162,8 @@ static void make_row(program *p, const contact_law *law, image_contact *row) {
         row->first_set = im->set_count;
         row->sets = from->set_count;
         for (int i = 0; i < from->set_count; i++) {
-            im->target[im->set_count++] = component_of(map, &from->sets[i]);
+            const assignment *set = &from->sets[i];
+            im->target[im->set_count++] = layout_component(map, set->symbol->index, set->primes);
         }
         break;
     }
@@ -472,7 +455,7 @@ static op_list *make_step(layout *map, const linear_system *s) {
     const int components = map->angles + map->reals;
     const bool second = map->form == WH_SECOND_ORDER;
     op_list *t = op_list_new(map->angles, second ? map->coordinates : components);
-    int *highest = alloc(n, sizeof *highest);
+    int *highest = algebra_room(map->equations->algebra, n, sizeof *highest);
     lowering l = layout_lowering(map, t);
     linear_system sparing = *s;
     sparing.sparing = map->equations->contacts == NULL;
@@ -487,7 +470,6 @@ static op_list *make_step(layout *map, const linear_system *s) {
         t->result[c] = slope_of(map, &l, of, highest);
     }
     lower_done(&l);
-    free(highest);
     op_list_prune(t);
     if (sparing.sparing) {
         op_list_share_sums(t);
@@ -503,7 +485,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     const int n = e->count;
     const int first = keep ? n : 0;
     op_list *t = op_list_new(map->angles, first + count);
-    int *highest = alloc(n, sizeof *highest);
+    int *highest = algebra_room(map->equations->algebra, n, sizeof *highest);
     const poly **folded = polys(map, count + e->instance->mechanism->noise_count);
     lowering l = layout_lowering(map, t);
     solve_highest(&l, s, highest);
@@ -541,7 +523,6 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     lower_done(&l);
     map->highest = NULL;
     map->recording = NULL;
-    free(highest);
     op_list_prune(t);
     return t;
 }

@@ -143,8 +143,8 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
  * 0 at the generic state is 0 at every state, so a divisor can be identically zero only if the determinant is. */
 static void eliminate_general(op_list *t, int n, const poly *const *of, int *mass, int *force,
                               int *solution) {
-    int *rows = alloc(2 * (int64_t)n, sizeof *rows);
-    int *columns = rows + n;
+    int rows[COORDINATES_MAX];
+    int columns[COORDINATES_MAX];
     double *value = alloc((int64_t)n * n, sizeof *value);
     uint64_t seed = 0;
     for (int i = 0; i < n * n; i++) {
@@ -176,7 +176,6 @@ static void eliminate_general(op_list *t, int n, const poly *const *of, int *mas
         at++;
     }
     substitute_back(t, n, mass, force, rows, columns, at - 1, solution);
-    free(rows);
     free(value);
 }
 

@@ -288,9 +288,9 @@ static symmetry symmetry_of(const equations *e, const double *by) {
 typedef struct finding {
     const equations *equations;
     symmetries *found;
-    double
-        *known; /* [(columns + 1) * columns] rows: the symmetries found, and a place for one more */
-    int count;  /* number of symmetries found */
+    /* [(columns + 1) * columns] rows: the symmetries found, and a place for one more */
+    double *known;
+    int count;     /* number of symmetries found */
     double *basis; /* [columns * columns] working memory */
 } finding;
 

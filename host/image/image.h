@@ -128,9 +128,8 @@ typedef struct image_unknown {
     int starts;              /* number of start values: the order, but at least 2 */
     double *start;           /* [starts] value, rate, ... */
     place *start_at;         /* [starts] place of the value; no source for a default */
-    bool
-        /* start[0] is a product of literal numbers, without the round-off of a sum */
-        start_written;
+    /* start[0] is a product of literal numbers, without the round-off of a sum */
+    bool start_written;
 } image_unknown;
 
 /* An input with a rate. Within a step, real[value_at] and real[rate_at] move with its value and rate. */
@@ -251,8 +250,8 @@ typedef struct image_matrix {
 
 typedef struct image {
     struct arena *memory;
-    const struct image
-        *base; /* owner of the lists, which must outlive this image; NULL: this image */
+    /* owner of the lists, which must outlive this image; NULL: this image */
+    const struct image *base;
 
     const char *name; /* the scene's, or the mechanism's */
     const char *title;
@@ -302,8 +301,8 @@ typedef struct image {
     image_range *range; /* [reals + inputs] components, then inputs */
     /* [angles] declared ranges of turn angles, which fixed point ignores */
     image_range *angle_range;
-    const struct fixed_plan
-        *fixed; /* the run in fixed point (host/fixed), which the image does not own; or NULL */
+    /* the run in fixed point (host/fixed), which the image does not own; or NULL */
+    const struct fixed_plan *fixed;
 
     bool has_energies; /* the scene is given by energies, not by equations */
     bool has_integral; /* the energy in the balance is not T + V (host/derive/equations.h) */

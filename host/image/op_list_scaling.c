@@ -296,8 +296,8 @@ typedef struct multiplied {
     const op_list *from;
     const double *times; /* [3 * from->count] */
     op_list *to;
-    int *
-        made; /* [from->count] the operation in `to` for each of `from`; raw values are not multiplied */
+    /* [from->count] the operation in `to` for each of `from`; raw values are not multiplied */
+    int *made;
 } multiplied;
 
 /* Enters a constant. A value that differs from a float only by double's round-off becomes that float. */

@@ -110,8 +110,8 @@ static op_list_needs op_list_needs_of(const op_list *t) {
 typedef struct registers {
     int value[OP_LIST_REGISTERS];
     int count;
-    int *
-        next; /* [ops]: position of the value's next use, or INT_MAX; a result is used after the end */
+    /* [ops]: position of the value's next use, or INT_MAX; a result is used after the end */
+    int *next;
     bool *stored; /* [ops] memory has a copy */
     int carried;  /* loads and stores so far */
 } registers;

@@ -95,9 +95,8 @@ typedef enum function_dimensions {
     TAKES_CHOICE  /* two arguments of one dimension -> the same dimension */
 } function_dimensions;
 
-const char *
 /* The function's name in the language, in text and in Octave; its name in C is wh_NAME. */
-function_name(function_id function);
+const char *function_name(function_id function);
 const char *function_latex(function_id function); /* such as "\\sin" */
 int function_arguments(function_id function);     /* 1 or 2 */
 function_dimensions function_takes(function_id function);
