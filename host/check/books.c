@@ -77,8 +77,8 @@ double books_swing_J(const books *b) {
 /* --- round-off ---------------------------------------------------------------------------------*/
 
 #define FLOAT_LEAST 0x1p-126 /* smallest normal float */
-#define SUMS_OF_A_STEP 8.0   /* roundings of a ledger entry per step, by its stages and events */
-#define SLOPE_SHARE 0x1p-20  /* relative change of a component to measure the energy's slope */
+#define SUMS_OF_A_STEP 8.0   /* assumed number of roundings of a ledger entry in one step */
+#define SLOPE_SHARE 0x1p-20  /* a component is changed by this part to measure the energy's slope */
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
                          double time_s) {
@@ -103,7 +103,7 @@ static double unit_rounding(const engine_kind *kind) {
 
 typedef struct state_rounding {
     double by;     /* round-off of a state component in one step */
-    double change; /* change of the component that measures the energy's slope */
+    double change; /* the component is changed by this to measure the energy's slope */
 } state_rounding;
 
 static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
@@ -117,7 +117,7 @@ static state_rounding rounding_of_component(const image *im, const engine_kind *
                  : (state_rounding){unit_rounding(kind) * fabs(value), SLOPE_SHARE * value};
 }
 
-/* The sum of the |energy changes| by rounding each component of the state once; 0 if it is not finite. */
+/* The largest energy change if each component of the state is rounded once; 0 if it is not finite. */
 static double state_rounding_J(const books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -144,8 +144,8 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
     return isfinite(sum) ? sum : 0.0;
 }
 
-/* Energy change of a step by the round-off of its accelerations and powers. off[] accounts for cancellation: the
- * round-off of balanced forces is in proportion to the forces. */
+/* Energy change of a step by the round-off of its accelerations and powers. off[] also includes the round-off of forces
+ * that cancel each other. */
 static double step_rounding_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     const double *entry = b->value + im->count;
@@ -161,8 +161,8 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
-/* Energy that a step's ledger entries may lose to underflow, in float with contacts. The round-off of a value below
- * FLOAT_LEAST is that of FLOAT_LEAST, and always of one sign in the worst case. */
+/* Energy that a step's ledger entries may lose to underflow, in float with contacts. A value below FLOAT_LEAST has the
+ * same absolute round-off as FLOAT_LEAST. In the worst case it always has the same sign. */
 static double step_lost_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     if (im->contacts == 0 || kind != &engine_float) {
@@ -183,7 +183,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Updates terms[]. The terms of a momentum are masses times rates, and rateless[]. */
+/* Updates terms[]. A momentum has the term rateless[] and, for each rate, its change when this rate is set to 0. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -318,7 +318,7 @@ enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are search
 #define FRAME_ASIDE_S 1e-5 /* half the duration of the motion in momenta_change(), s */
 #define FRAME_LEAST 1e-6   /* momentum changes below this part of the largest one are round-off */
 
-/* change[]: by how much each momentum falls in 2 FRAME_ASIDE_S around random state number `draw`. False: not finite. */
+/* Sets change[i] to the decrease of momentum i while the motion passes random state `draw`. False if not finite. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
     double angle_rad[2][IMAGE_COMPONENTS_MAX];
@@ -375,7 +375,7 @@ static void find_frame(books *b) {
         leads[lead[r]] = true;
     }
     for (int c = 0; c < n && known; c++) {
-        /* column c has no pivot: entry c of its null vector is 1 (r = -1) */
+        /* if column c has no pivot, it has a null vector with |component i| = share; component c is 1 */
         for (int r = -1; r < rank && !leads[c]; r++) {
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);

@@ -1,9 +1,9 @@
 /* books.h: the energy and momentum balance of a run, integrated in double during the run.
  *
  * The balanced energy is T + V, or the energy integral if that differs (host/derive/equations.h). The input and loss
- * powers are sums of powers in the ledger (core/ledger.h). The run integrates the ledger in its own number type, by the
- * stages of its method. The balance checks the ledger by another rule: Simpson's, of order 4 like RK4, on the states at
- * the ends of steps. Inputs keep their start values. The residual is the error of the run and of Simpson's rule. */
+ * powers are sums of powers in the ledger (core/ledger.h). The run integrates the ledger with the stages of its method.
+ * The balance integrates the same powers by Simpson's rule, which has order 4 like RK4. It uses the states at the ends
+ * of steps, and the start values of inputs. The residual contains the run's error and the error of Simpson's rule. */
 #ifndef CHECK_BOOKS_H
 #define CHECK_BOOKS_H
 
@@ -42,22 +42,22 @@ typedef struct books {
     double kinetic_J[2]; /* start, now */
     double moving_J[2];  /* kinetic_J without terms of odd order in the rates */
     double stored_J[2];
-    double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
+    double energy_J[2];   /* T + V, or the energy integral if that differs */
     double input_J;       /* work of the inputs since the start */
     double loss_J;        /* losses since the start */
-    double power_W[2][2]; /* input and loss power: [0] after 0, 2, 4, ... steps, [1] a step later */
+    double power_W[2][2]; /* [0][] after even, [1][] after odd steps; [][0] input, [][1] loss */
     spread kinetic;       /* of the values of moving_J[1] */
     spread stored;
     spread *rate; /* [count] */
     spread *push; /* [count] momenta without rateless[] */
-    bool *frame;  /* [count] the momentum is in a conserved sum, so its mean depends on the frame */
+    bool *frame;  /* [count] part of a conserved sum, so the mean depends on the reference frame */
     double *rateless;   /* [count] part of a momentum that reversing all rates does not change */
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
-    double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
+    double *off;        /* bounds on the round-off of value[], divided by the unit round-off */
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */
     double computing_J; /* largest sampled round-off of the evaluation of the energy */
-    double lost_J;      /* largest sampled underflow of a step's entries in float */
+    double lost_J;      /* largest sampled energy loss of a step's ledger by underflow */
     double rule_J;      /* error bound of the integration rule, over the whole run */
     double pair_J;      /* largest error bound of one pair of steps */
     double kept_J;      /* residual at the last even step */
@@ -81,14 +81,14 @@ void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
 /* Root mean square of a momentum over the run, without its rateless[] part, and without its mean if frame[] is set. */
 double books_momentum(const books *b, int unknown);
-/* The largest swing of T, of V, or of a rate times half its momentum. Swing: range of a sine of equal variance. */
+/* The largest swing of T, of V, and of each (rate * books_momentum() / 2). Swing: range of a sine of equal variance. */
 double books_swing_J(const books *b);
-/* Largest sampled energy change by the round-off of one step: of state and accelerations in numbers of this kind, and
- * of powers in double. *computing_J: largest sampled round-off of one evaluation of the energy, in double. */
+/* Largest sampled energy change by the round-off of one step in a run of this kind. *computing_J: largest sampled
+ * round-off of one evaluation of the energy, in double. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
-/* Error bound of Simpson's rule. If the number of steps is odd, the last step counts as pair_J. One step: infinite. */
+/* Error bound of Simpson's rule. After an odd number of steps, pair_J bounds the last step. One step: infinite. */
 double books_rule_J(const books *b);
-/* Energy lost to underflow in all steps, in the ledger of a float run with contacts. Call books_rounding_J() first. */
+/* Energy that the ledger of a float run with contacts may lose to underflow. Call books_rounding_J() first. */
 double books_lost_J(const books *b);
 
 #endif

@@ -7,7 +7,7 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* N steps may have ROUNDINGS sqrt(N) times the round-off of one step, enough for N <= 1000 errors of the same sign. */
+/* Allowance for N steps: ROUNDINGS * sqrt(N) times the round-off of one step; at least N times if N <= 1000. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
@@ -31,7 +31,7 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account_free(&kept);
 }
 
-/* --stabilized corrects the energy, perhaps by too much: the larger of the residuals with and without this counts. */
+/* Sets the residual to the larger of two: with and without the energy corrections of --stabilized. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);

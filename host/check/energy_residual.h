@@ -2,11 +2,11 @@
  *
  * The residual is the change of the energy (T + V, or the energy integral if that differs) minus the work of inputs,
  * losses and contacts; zero for an exact solution. The ratio is |residual| divided by the largest entry of the balance.
- * An entry is a change, a sum or a mean over time: a state near a singular position would dominate a maximum.
+ * No entry is a maximum over time, because a single state near a singular position would determine it.
  * docs/dev/events.md#the-energy-residual lists the entries, and the allowance for round-off.
  *
- * With --matrix exact the steps have no error, but the integration of the powers has one: the difference of two rules
- * counts as round-off. With --stabilized the larger of the residuals with and without energy corrections counts. */
+ * With --matrix exact the steps have no error, but integrating the powers has one. Its bound counts as round-off.
+ * With --stabilized the residual is the larger of two values: with and without the energy corrections. */
 #ifndef CHECK_ENERGY_RESIDUAL_H
 #define CHECK_ENERGY_RESIDUAL_H
 
@@ -14,7 +14,7 @@
 
 #include "books.h"
 
-/* Above this ratio a run is not trusted. */
+/* A run is not trusted if |residual| / (largest entry of the balance) exceeds this. */
 #define ENERGY_RESIDUAL_LIMIT 1e-3
 
 #define ENERGY_RESIDUAL_COLUMN "energy_residual"
@@ -22,7 +22,7 @@
 typedef struct energy_residual {
     bool known; /* false: no energies, energies that are not finite, or contacts without a ledger */
     book_account energy;
-    double inputs_J; /* work by source; negative: removes energy */
+    double inputs_J; /* these three: work since the start; negative if it removes energy */
     double losses_J;
     double contacts_J;
     double left_J;     /* residual, signed: energy.left */
@@ -51,7 +51,7 @@ typedef enum giver {
     GIVER_DAMPER,   /* a statement F */
     GIVER_CONTACT,
     GIVER_INPUT, /* changes of an input that occurs in the energies */
-    GIVER_STEPS  /* corrections of the drift (--stabilized) */
+    GIVER_STEPS  /* energy that --stabilized has added */
 } giver;
 
 typedef struct kept_entry {
@@ -61,7 +61,7 @@ typedef struct kept_entry {
 } kept_entry;
 
 typedef struct kept_account {
-    kept_entry *entry; /* [entries] statements, inputs, contacts, then steps; each in file order */
+    kept_entry *entry; /* [entries] of statements, then inputs, then contacts, then GIVER_STEPS */
     int entries;
     double left; /* residual from the core, in the run's number type */
 } kept_account;
@@ -77,7 +77,7 @@ void kept_account_free(kept_account *k);
 /* Prints the entries of the energy balance by source, and the conserved momenta. */
 void books_print(FILE *out, const books *b, const energy_residual *balance);
 
-/* Prints the accounts of energy and momenta by statement, from the ledger (`with ledger`), with levels from `b`. */
+/* Prints the energy and momentum balances by statement: entries from the ledger, start and end values from `b`. */
 void books_print_kept(FILE *out, const image *im, const engine_kind *kind, const void *run,
                       const books *b);
 

@@ -19,7 +19,7 @@ typedef enum finding_id {
 } finding_id;
 
 #define FINDING_BIT(id) (1U << (id))
-/* Findings about the scene's start. No other step or number type removes them. */
+/* Findings about the scene's start. A different step or number type cannot remove them. */
 #define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
 /* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` end with exit status 1. After
@@ -43,21 +43,21 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* FINDING_ACCURACY: the error of a coordinate or rate reaches RUN_CHECKS_TOLERANCE of its range at until_s, in the
- * run's first half. The error is reported if it reached RUN_CHECKS_EARLY_TOLERANCE before until_s / RUN_CHECKS_GROWS,
- * or before RUN_CHECKS_BEGIN times the run's end. Otherwise it grew as in a chaotic motion: no smaller step helps. */
+/* FINDING_ACCURACY: the error of a coordinate or rate reaches RUN_CHECKS_EARLY_TOLERANCE of its range at early_s, and
+ * RUN_CHECKS_TOLERANCE at until_s, in the run's first half. It is reported if early_s is at most RUN_CHECKS_BEGIN *
+ * (the run's end) or until_s / RUN_CHECKS_GROWS. Else it grew as in a chaotic motion, and no smaller step helps. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* FINDING_ACCURACY also reports an error of a position that grows RUN_CHECKS_SUDDEN-fold, to HORIZON_TOLERANCE, within
- * RUN_CHECKS_SUDDEN_STEPS steps, except in the first 2 RUN_CHECKS_SUDDEN_STEPS steps of the run. */
+/* FINDING_ACCURACY also reports a sudden error of a position: it grows from HORIZON_TOLERANCE / RUN_CHECKS_SUDDEN to
+ * HORIZON_TOLERANCE within RUN_CHECKS_SUDDEN_STEPS steps. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* FINDING_ENERGY: limit of |residual| / (largest entry) before the run's end; less is invisible in a plot. */
+/* FINDING_ENERGY: limit of |residual| / (largest entry) before the run's end. Smaller ones are invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* FINDING_EVENTS ignores the last bounces before a rest: at most 1 + RUN_CHECKS_RESTS_STEPS * (steps of the run) steps,
- * if together they change the energy by at most RUN_CHECKS_RESTS times the largest entry. */
+/* FINDING_EVENTS allows 1 + RUN_CHECKS_RESTS_STEPS * (steps of the run) steps with too many events, if the sum of their
+ * |energy changes| is at most RUN_CHECKS_RESTS times the largest entry. Last bounces before a rest need this. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

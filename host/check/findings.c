@@ -62,7 +62,7 @@ static void say_energy(FILE *out, const run_checks *v) {
         "the energy balance fails: its residual %s %.3g J, %.2e of the largest entry of the energy balance",
         before ? "reached" : "is", before ? part * b->largest_J : b->left_J,
         before ? part : b->ratio);
-    if (v->found[FINDING_ENERGY].reported) { /* else --strict has a smaller limit */
+    if (v->found[FINDING_ENERGY].reported) { /* else the residual exceeds only --strict's limit */
         fprintf(out, " (limit %g)", findings_limit(v, FINDING_ENERGY));
     }
     if (b->jump_s >= 0.0) {
@@ -152,7 +152,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
         a->at_s, a->value);
 }
 
-/* The contact other than `besides` with the most events in the overruns; -1: none. */
+/* Of the contacts except `besides`, the one with the most events in steps with too many events; -1: none. */
 static int busiest(const run_checks *v, int besides) {
     int found = -1;
     for (int k = 0; k < v->image->contacts; k++) {
@@ -218,14 +218,14 @@ enum { REMEDY_TEXT = 120 };
 /* A remedy must stay below this part of the limits, because the user's next run may round differently. */
 #define LEAVES 0.3
 #define PARTS_MOST 20000.0    /* largest divisor of the run's step that is tried */
-#define COMPENSATED_FROM 10.0 /* in float, steps divided by this or more get compensated sums */
+#define COMPENSATED_FROM 10.0 /* in float, sums are compensated if the divisor is at least this */
 
 typedef struct search {
     const image *image;
     const engine_kind *kind;
     budget *budget;
     double part;   /* factor on the limits (run_checks.h) */
-    double a_step; /* operations of a step of the run, with its checks */
+    double a_step; /* operations of one step of the run, including the checks of this step */
     double stages; /* stages of the run's method */
     bool over_budget;
 } search;
@@ -305,7 +305,7 @@ static bool try(search *s, const request *w) {
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
     wh_status status = WH_OK;
-    /* without a finer run, which the budget did not allow, the error is unknown */
+    /* v->doubling is NULL if the budget did not allow the finer run. Then the trial's error is unknown. */
     const loop_end end = v->doubling != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     run_checks_end(v, status);
     const bool good = end == LOOP_DONE && does(v);
@@ -377,7 +377,7 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
         }
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
-        w.method = WH_METHOD_DEFAULT; /* the finer steps are tried with this method, too */
+        w.method = WH_METHOD_DEFAULT; /* try_steps() below uses this method, too */
         request usual = w;
         if (try_either(s, &usual)) {
             write_options(s, &usual, text);
@@ -449,7 +449,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
-/* The divisor of the step that should reduce the energy residual to 3e-4, by the order of the method. */
+/* The divisor of the step that should reduce FINDING_ENERGY's value to 3e-4, if it is proportional to step^order. */
 static double first_parts(const run_checks *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
@@ -590,7 +590,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* a singular matrix has no remedy: past a linkage's flat position a step would select one of several motions */
+        /* WH_E_SINGULAR has no remedy: the holds permit several motions, and a step would select one of them */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

@@ -7,7 +7,7 @@
 #include "host/base/diag.h"
 #include "run_checks.h"
 
-/* Prints findings, "whirl run: warning: ... [word]", and tried remedies. `fails`: the energy finding is an error. */
+/* Prints findings, "whirl run: warning: ... [word]", and tried remedies. `fails`: FINDING_ENERGY is an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
 /* findings_message(): text of a reported finding. findings_where(): its column or contact; false: it has none.
  * findings_limit(): the limit that its value exceeds. */
@@ -15,7 +15,7 @@ enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 double findings_limit(const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);
-/* For a run that ended too early, or with undefined energies: prints options with which it completes, if found. */
+/* For a run that failed, or whose energies became undefined: prints options that prevent this, if Whirl finds any. */
 void findings_say_failed(FILE *out, const run_checks *v);
 /* After a step with `status`: reports the expression that was not finite, or the coordinate that diverged. */
 void failure_say(FILE *out, wh_status status, const run_checks *v);
