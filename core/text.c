@@ -1,8 +1,8 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
-/* A number is an array of bytes, low byte first, with the point between two of them. Sums, and products and quotients
- * by ten, then need only 16 bits, which is cheap on every machine. */
+/* A number is an array of bytes, low byte first, with the point between two of them. Adding, multiplying by ten and
+ * dividing by ten then need only 16 bits at a time, which is cheap on every machine. */
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
 #define WHOLE_BYTES 16U    /* 2^128: above every float */
 #define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* 8 bytes are room for a factor of 10^18 */
@@ -159,8 +159,8 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* Copies the mantissa's bits into byte[BYTES], initially zero. Returns false if the number exceeds WHOLE_BYTES,
- * as a double may. Drops bits below 2^-160: only doubles below 2^-107 have them, which round to 0 at 18 decimals. */
+/* Copies the mantissa's bits into byte[BYTES], initially zero. Returns false if a double exceeds WHOLE_BYTES. Drops
+ * bits below 2^-160. Only doubles below 2^-107 have such bits, and these doubles round to 0 at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

@@ -23,15 +23,15 @@ bool hal_clock_start(void);
 
 typedef enum hal_clock_source {
     HAL_CLOCK_CRYSTAL,
-    HAL_CLOCK_FALLBACK, /* the crystal has failed: too inaccurate to measure a speed */
+    HAL_CLOCK_FALLBACK, /* after a failure of the crystal; too inaccurate to measure a speed */
     HAL_CLOCK_PLAYED    /* simulated time, from a model or an emulator */
 } hal_clock_source;
 hal_clock_source hal_clock_source_now(void);
 
 uint32_t hal_clock_ticks(void);
 
-/* Waits until the timer reaches `ticks`, less than half of its range ahead. Returns at once if `ticks` has passed. An
- * interrupt may delay the return by up to 0.1 ms, a model's step by up to 1 ms of simulated time. */
+/* Waits until the timer reaches `ticks`, at most 35 minutes ahead. Returns at once if `ticks` has passed. An interrupt
+ * may delay the return by up to 0.1 ms. A model may return up to 1 ms of simulated time late. */
 void hal_clock_wait_until(uint32_t ticks);
 
 WH_C_END

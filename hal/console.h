@@ -17,9 +17,9 @@ void hal_console_write(const char *bytes, unsigned count);
  * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes, 0 if nobody is
  * connected. Do not call them in an interrupt or a fault handler.
  *
- * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero, and so
- * is any number of lost bytes, if the board detects the loss. Do not execute a line that contains a zero. A damaged
- * Escape is still read as Escape, because a needless stop is harmless. */
+ * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero. If the
+ * board detects a loss of bytes, one zero is read instead of them. Do not execute a line that contains a zero. A
+ * damaged Escape is still read as Escape, because a needless stop is harmless. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

@@ -1,6 +1,6 @@
-/* link.h: a line of bytes to and from the plant's simulator. Boards implement it (boards/<family>/link.c): with
- * semihosting files under an emulator, file descriptors on the PC, the console on real boards (link_console.c). Bytes
- * arrive in order. If a function detects that the simulator is gone, the program ends with status HAL_LINK_GONE. */
+/* link.h: a line of bytes to and from the plant's simulator. Bytes arrive in order. Boards implement it by semihosting
+ * files (boards/cortexm/link.c), file descriptors of the PC (boards/host/link.c) or their console (link_console.c). If
+ * a function detects that the simulator is gone, the program ends with status HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 
@@ -25,7 +25,7 @@ unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* A timer that measures computing times and wraps at 2^32; its counts per second (0: the timer is unusable). */
+/* A timer that measures computing times. It wraps at 2^32. If it is unusable, its counts per second are 0. */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 

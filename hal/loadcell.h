@@ -31,7 +31,7 @@ typedef enum hal_load_status {
 
 typedef struct hal_load_sample {
     uint32_t ticks; /* time of the averaging interval's middle, on the capture timer (clock.h) */
-    int32_t raw;    /* counts; at overload plus or minus full scale */
+    int32_t raw;    /* counts of HAL_LOADCELL_N_PER_COUNT */
     uint8_t status; /* a hal_load_status */
 } hal_load_sample;
 

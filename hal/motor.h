@@ -11,7 +11,7 @@ WH_C_BEGIN
 
 typedef enum hal_motor_off_way {
     HAL_MOTOR_COAST, /* enable off: no torque, the rotor turns freely */
-    HAL_MOTOR_BRAKE  /* enable on at 0 V: a stage that can short the motor brakes */
+    HAL_MOTOR_BRAKE  /* enable on, at 0 V: brakes the motor if the stage can short it */
 } hal_motor_off_way;
 
 /* Status bits of the drive stage: */
@@ -19,7 +19,7 @@ enum {
     /* The hardware has cut the drive or prevented a start, because of stop or a fault of the drive stage. The drive
      * stays off until the next hal_motor_off(). */
     HAL_MOTOR_CUT = 1,
-    /* stop is pressed, or the drive stage has a fault: it cannot drive */
+    /* the stage cannot drive, because stop is pressed or the stage has a fault */
     HAL_MOTOR_FAULT = 2,
     HAL_MOTOR_NO_SUPPLY = 4 /* the measured supply voltage is 0: the stage cannot drive */
 };
@@ -39,12 +39,12 @@ void hal_motor_off(hal_motor_off_way way);
 /* Returns the status bits; 0: no fault, or the stage is not monitored. Do not call it in an interrupt. */
 unsigned hal_motor_status(void);
 
-/* Returns the supply voltage, measured at most 10 ms ago. Do not call it in an interrupt. HAL_MOTOR_SUPPLY_BEYOND: the
- * converter is at the end of its range. This value is above every limit that a setting can have. */
+/* Returns the supply voltage, measured at most 10 ms ago. If the converter is at the end of its range, returns
+ * HAL_MOTOR_SUPPLY_BEYOND, which is above every limit that a setting can have. Do not call it in an interrupt. */
 #define HAL_MOTOR_SUPPLY_BEYOND __builtin_inff()
 float hal_motor_supply_V(void);
 
-/* Default of the setting supply_most: 37.2 V (core/rig/standard.c), or less if the board measures less. */
+/* Default of the setting supply_most: 37.2 V (core/rig/standard.c), or less if the board cannot measure so much. */
 #define HAL_MOTOR_SUPPLY_MOST_mV UINT32_C(37200)
 float hal_motor_supply_most_V(void);
 

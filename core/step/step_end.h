@@ -8,9 +8,9 @@
 #include "refuse.h"
 #include "stage_sums.h"
 
-/* Moves *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to nearest: truncation would slow
- * every angle down by half a unit per step. If compensated, *carry is added to the rounded-off part of the move,
- * because a large `steps` would absorb it, and becomes the round-off of the result. */
+/* Moves *angle by `steps` phase units, |steps| < WH_PHASE_STEP_MAX. Rounds to nearest, because truncation would slow
+ * every angle down by half a unit per step. If compensated, also adds *carry, and sets *carry to the new round-off.
+ * Float adds it to the fraction of `steps`, because a large `steps` would absorb it. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -27,12 +27,12 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
 #endif
 }
 
-/* Gives the interpreter (host/engine/loss.inc) the round-off of turn angle i in a step of h seconds, in phase units. */
+/* The interpreter redefines this to collect `lost`, the round-off of turn angle i in phase units; h is in s. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* True if the sum of the magnitudes of value[n] is below WH_ABSURD, and so each of them. One comparison suffices. */
+/* True if the sum of the magnitudes of value[n] is below WH_ABSURD. One comparison then bounds all n values. */
 WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -42,8 +42,8 @@ WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     return n == 0 || all < WH_ABSURD;
 }
 
-/* Refuse the step: value[n], the components from number `first` on, have too large a sum of magnitudes. The fault is
- * the first component beyond the limit; if there is none, the last one. */
+/* Refuses the step, because the sum of the magnitudes of value[n] is too large. value[0] is component `first`. The
+ * fault is the first component beyond the limit. If none is beyond it, the fault is the last component. */
 WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     WH_UNROLL
@@ -128,9 +128,9 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
     }
 }
 
-/* Computes trial->angle[]: each angle moves by move[] times rad_a_move. If compensated, trial->carry[] is added and
- * becomes the round-off. Returns the first angle that would move by half a turn or more, or by NaN; `angles` if there
- * is none. The sum of all magnitudes is checked first, because such moves are rare. */
+/* Sets trial->angle[i] to angle i moved by move[i] * rad_a_move. If compensated, adds trial->carry[i] and sets it to
+ * the new round-off. Returns the first angle whose move is half a turn or more, or NaN. If there is none, returns
+ * `angles`. Such large moves are rare, so a single comparison of the sum of all moves comes first. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -164,9 +164,8 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
     return angles;
 }
 
-/* Returns value + by * factor, summed as by wh_sum(). `product` is by.high * factor. The product by.low * factor is
- * less than half a unit in the last place of `product`, so it is added to *carry instead. If the step h has no low
- * part, as in scenes with contacts, wh_sum() computes the round-off. */
+/* Returns value + by * factor, compensated as by wh_sum(). `product` is by.high * factor. If compensated, the product
+ * by.low * factor is added to *carry, because it is too small to change `product`. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -183,17 +182,17 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
 }
 
 /* Returns the correction of the rounded h^2 / by->parts, in s^2. In the change of a position, the caller multiplies the
- * correction by the sum of accelerations. One term is the round-off of h / by->parts. The other is due to the stages:
- * they use h.high alone, so their distances from the begin have the relative error -h.low / h. This would change the
- * energy by the same amount in every step: 5e-13 of a pendulum's energy in a step of a millisecond. The correction
- * removes this change if the mass matrix is constant, otherwise most of it (docs/dev/numerics.md). */
+ * correction by the sum of accelerations. `part.low` is the round-off of h / by->parts. `stages` is necessary because
+ * the stages use h.high alone: their distances from the begin have the relative error -h.low / h. Without `stages`, the
+ * relative change of the energy would be the same in every step: 5e-13 for a pendulum and a step of 1 ms. With it, this
+ * drift vanishes if the mass matrix is constant; otherwise a part of it remains (docs/dev/numerics.md). */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* wh_square_short() for angles, in phase units s^2 per radian. Stages differ in round-off, so there are three cases:
- * rotated sines or all stages at the begin; positions by .places; positions by wh_stage_angle(). */
+/* wh_square_short() for angles, in phase units s^2 per radian. The correction depends on how the stages get their
+ * angles: by rotated sines (or all stages are at the begin), by .places, or by wh_stage_angle(). */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -208,8 +207,8 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
     return phases.high * part.low + part.high * phases.low;
 }
 
-/* Adds this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
- * positions. If h has no low part, only angles have such an error, because WH_PHASE_PER_RAD is rounded. */
+/* Adds corrections to the carries of the positions. pulled[] are the sums of accelerations with the weights .positions.
+ * If h.low is 0, only angles need a correction, because WH_PHASE_PER_RAD is rounded. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {
@@ -223,8 +222,8 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
     }
 }
 
-/* Ends a step of q'' = f. a1 is the result of the first stage; alike[] are the later results, with those of equal
- * weights summed. `turned`: the stages rotated sines. Returns as wh_step_second() does. */
+/* Ends a step of q'' = f. a1[] are the accelerations of the first stage; alike[] are sums from wh_stage_given().
+ * `turned` is true if the stages rotated sines. Returns what wh_step_second() returns. */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
                                   unsigned angles, unsigned n, wh_two_part h, wh_state *state) {

@@ -1,15 +1,15 @@
 /* table.h: functions of one phase as constant tables in flash, interpolated within a cell.
  *
  * The tables have the terms of a mechanism's accelerations that depend only on one turn angle, including sines,
- * divisions and roots (host/derive/tables.c). The turn is divided into 2^bits cells; the middle of cell i is at i
- * cells. A cell stores the polynomials of all tables one after the other, so that one lookup of the phase finds them
- * all. y is the distance from the cell's middle, in cells:
+ * divisions and roots (host/derive/tables.c). The turn is divided into 2^bits cells; the middle of cell i is at
+ * i / 2^bits turns. A cell stores the polynomials of all tables one after the other, so that one lookup of the phase
+ * finds them all. y is the distance from the cell's middle, in cells:
  *
  *      linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
  *
- * The pieces are continuous; those of cubic tables also have continuous slopes. Values and slopes at the borders of
- * cells would need half the flash of the four coefficients, but eleven operations instead of six, which matters without
- * an FPU. The increment to `a` is small, so the round-off is little more than that of one addition. */
+ * Neighbouring polynomials agree at the border of their cells; those of cubic tables have the same slope there, too.
+ * Storing this value and slope instead of four coefficients would halve the flash, but take eleven operations instead
+ * of six. The sum of the terms after `a` is small, so the round-off is little more than that of one addition. */
 #ifndef WH_TABLE_H
 #define WH_TABLE_H
 
@@ -45,11 +45,11 @@
 #error "core/step/table.h: WH_TABLE_FOLD is for float"
 #endif
 
-/* Number of cells stored for the table of an even or odd function: half a turn and one cell; unfolded: a turn. */
+/* Number of cells that the table of an even or odd function stores. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
-/* Scale of y in a table's coefficients. In float, y is 2^32 times the distance in cells, so that it has all digits of
- * the phase. The coefficients contain the inverse of this factor. */
+/* Scale b, c and d. In float, y is 2^32 times the distance in cells, because a shift of the phase then suffices to
+ * compute it. The coefficients contain the inverse powers of this factor. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -76,8 +76,8 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     return sum - 6755399441055744.0;
 }
 
-/* The method of wh_sincos_parts(): with up to 128 cells per turn, pi/64 has three parts whose products are exact. With
- * more cells, a cell is a part of one of 128 coarse cells. */
+/* Subtracts a multiple of pi/64, which has three parts as in wh_sincos_parts(). If a turn has more than 128 cells, it
+ * is first divided into 128 coarse cells, and each of these into 2^finer cells. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;
@@ -115,7 +115,7 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
 WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y, bool *back) {
 #if WH_TABLE_FOLD
-    /* The one's complement keeps a phase on the border of two cells in the cell that it has without folding. */
+    /* ~phase instead of -phase keeps a phase on the border of two cells in the cell that it has without folding. */
     const bool beyond = (int32_t)phase < 0;
     const wh_real *row = wh_table_cell(cells, bits, width, beyond ? ~phase : phase, y);
     const wh_real way = (wh_real)(int32_t)(phase << bits);
@@ -141,7 +141,7 @@ WH_INLINE wh_real wh_table_back(wh_real value, bool back) {
     return value;
 }
 
-/* Returns the function whose coefficients begin at `of`, at the distance y from the cell's middle. */
+/* Return the value, at y, of the polynomial whose coefficients begin at `of`. */
 WH_INLINE wh_real wh_table_linear(const wh_real *of, wh_real y) {
     return wh_flash_real(&of[0]) + y * wh_flash_real(&of[1]);
 }

@@ -39,7 +39,7 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV
 enum { DUTY, ENABLE };                    /* outputs */
 enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples; DIALS is the first dial */
 
-/* 20-bit converter: its rounding error is below the tests' bounds */
+/* The rounding error of a dial's reading, half a count, is smaller than the tests' tolerances. */
 #define DIAL_PER_COUNT (1.0f / 1048576.0f)
 
 static const wh_signal signals[] = {
@@ -117,8 +117,8 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* After this time without a reading, stop counts as pressed. If all readings fail, the guard trips earlier, because
- * of the missing load samples, and names the cell as the cause. */
+/* After this time without a reading, stop counts as pressed. If load samples are missing, too, the guard trips before
+ * this time has passed, and names the load cell as the cause. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {
@@ -130,7 +130,7 @@ static void see_stop(const wh_sample *sample) {
 /* Takes the newest readings of supply, stop and dials. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* latched: a wrap makes the difference small again */
+        stop_heard = false; /* until the next reading, even after the ticks wrap */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -195,7 +195,7 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Without a measured supply voltage the division would fail: the duty is 0. */
+/* If no supply voltage is measured, the duty is 0, because the division would fail. */
 void hal_motor_set_voltage(float volts) {
     if (motor_started) {
         drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);

@@ -138,7 +138,7 @@ void hal_turns_step_ends(hal_turns *turns) {
     }
 }
 
-/* Takes no simulated time: in real hardware this memory is in the processor. */
+/* Sending takes no simulated time, because on real hardware the bytes stay in the processor. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count) {
     const uint32_t begun_timer = hal_link_timer();
     const unsigned all = count < WH_REMEMBER_MAX ? count : WH_REMEMBER_MAX;

@@ -39,7 +39,7 @@ typedef struct hal_turns {
  * line, or if the hello is too long. */
 bool hal_turns_start(hal_turns *turns, const wh_hello *hello);
 
-/* Reports that the program ends with this status, on lines that do not show it otherwise (WH_FRAME_END). */
+/* Sends the program's exit status (WH_FRAME_END), because on some lines the plant cannot see that a program ends. */
 void hal_turns_end(hal_turns *turns, int status);
 
 /* Sets an output from now on. */
