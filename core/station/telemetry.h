@@ -1,21 +1,21 @@
-/* telemetry.h: the rig's data, sample by sample, on the serial line of the console's text.
+/* telemetry.h: the rig's data, sample by sample, on the serial line that also has the console's text.
  *
  * A frame before COBS coding (core/cobs.h), with sizes in bytes and little-endian numbers:
  *
  *     0x80 + channel 1 | sequence 2 | dropped 2 | ticks 4 | payload | CRC-16/CCITT 2
  *
- * A zero precedes and ends each coded frame. Text is ASCII without zeros, so the second byte after a zero distinguishes
- * frames from text. `sequence` counts the channel's frames, sent or dropped; `dropped` counts those that did not fit
- * into the output ring. Both wrap. A gap in `sequence` that `dropped` does not explain is a loss on the line.
+ * A zero precedes and ends each coded frame; text has none. The second byte after a zero is 0x80 + channel in a frame,
+ * but smaller in text, because text is ASCII. `sequence` counts the channel's frames, sent or dropped; `dropped` counts
+ * those that did not fit into the output ring. Both wrap. Other gaps in `sequence` are losses on the line.
  *
  * The console's `tel schema` describes the channels:
  *
  *     run    up to ten load samples, each within 1/8 of a period of its nominal time; speed, drive and state at the
  *            time of sending
  *     event  one event, at `ticks`: an edge of a slot pulse, another state, a trip
- *     ring   the recorded control steps around a trigger (below), ten in a frame
+ *     ring   the recorded control steps around a trigger (below), ten in a frame; these frames wait if they do not fit
  *
- * Telemetry is off at first. It uses at most half of the output ring, and drops frames that do not fit. */
+ * Telemetry is off at first. It uses at most half of the output ring. */
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
@@ -47,7 +47,7 @@ typedef struct wh_captured {
     uint16_t ticks; /* low 16 bits of the step's time */
     int16_t load;   /* counts divided by 2^wh_tel_shift() */
     uint16_t drive_mV;
-    uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: this step is the trigger; 8: tripped */
+    uint8_t flags; /* 1: a pulse of sensor 0; 2: one of sensor 1; 4: the trigger; 8: tripped */
     uint8_t stage;
 } wh_captured;
 
@@ -71,7 +71,7 @@ typedef struct wh_capture {
     unsigned left;        /* number of steps still to record after the trigger */
     unsigned count;       /* number of stored steps */
     unsigned next;        /* index in step[] at which the next step is stored */
-    uint32_t first_ticks; /* time of the oldest step, all 32 bits */
+    uint32_t first_ticks; /* time of the oldest step; wh_captured has only its low 16 bits */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
 
@@ -111,9 +111,9 @@ typedef enum wh_tel_event {
 typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh_tel_format;
 #undef WH_TEL_NAME
 
-/* All zeros: off. Large members last: small offsets make shorter code. */
+/* All zeros turn telemetry off. Large members come last, because small offsets make shorter code. */
 typedef struct wh_tel {
-    bool reads; /* the capture is being sent; read_at is the next step */
+    bool reads; /* the capture is being sent; read_at is the number of steps sent so far */
     uint16_t sequence[WH_TEL_CHANNELS];
     uint16_t dropped[WH_TEL_CHANNELS]; /* lost lines of text count as frames of WH_TEL_RUN */
     unsigned read_at;

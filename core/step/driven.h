@@ -22,7 +22,7 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* For a refused step: the old driven components, and the ledger's levels at the start and corrections. */
+/* Restored if the step is refused: the driven components, and the ledger's stored initial levels and corrections. */
 typedef struct wh_driven_kept {
     wh_real real[2 * WH_COORDS];
     wh_real books[2 * WH_ACCOUNTS_MAX];

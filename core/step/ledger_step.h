@@ -19,7 +19,7 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Returns a stage's weight in the method's quadrature. The unrolled loop needs no table, even if `stage` varies. */
+/* Returns the stage's weight in the method's quadrature. Unlike by->rates[stage], the loop needs no table in memory. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
@@ -49,7 +49,7 @@ WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
     }
 }
 
-/* Enter one stage in the smooth entries. Returns the stage's weight times the length of the trial step, s. */
+/* Adds a stage to the smooth entries (ledger.h). Returns the stage's weight times the length of the trial step, s. */
 WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input, wh_ledger_work *w) {
@@ -73,7 +73,8 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Call this before a step. It enters the energy changes by the inputs that changed since the last step, one by one. */
+/* Call this before a step. If inputs have changed since the last step, it applies the changes one after the other,
+ * and enters the energy's change by each. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);

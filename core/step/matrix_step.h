@@ -1,7 +1,7 @@
 /* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g. The scene's operation
- * list computes the products, except those by 0 and 1. If a step hardly changes a component, the list computes x+ = x +
- * ((Phi - 1) x + Gamma u + g) instead: the round-off is then a part of the change, not of the much larger state.
- * Bounds, statuses and turn angles are handled as in every step (step_end.h). */
+ * list computes the products, except those by 0 and 1. If a component's diagonal entry of Phi is near 1, the list
+ * computes x + ((Phi - 1) x + Gamma u + g) instead: the products then have the round-off of the small change, not that
+ * of the larger x. Bounds, statuses and turn angles are handled as in every step (step_end.h). */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
@@ -9,10 +9,10 @@
 #include "multi_step.h"
 #include "step_end.h"
 
-/* Returns as wh_all_believable(). Without an FPU, a check of bits mostly suffices: a tenth of the time (ATmega328P). */
+/* Returns as wh_all_believable(). Without an FPU, compares bytes first: ten times as fast on an ATmega328P. */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
-    /* the upper byte of 2^39: the sum of smaller numbers is below WH_ABSURD */
+    /* the upper byte of 2^39. If all upper bytes are smaller, the sum of the numbers is below WH_ABSURD */
     static const uint8_t large = 0x53;
     unsigned i = 0;
     for (; i < n; i++) {
@@ -31,7 +31,7 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Accept the results of the operation list, or refuse the step, in a scene without turn angles and compensation. */
+/* Accepts given[reals], the new state, or refuses the step. For scenes that have neither turn angles nor carries. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -43,9 +43,9 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
     return WH_OK;
 }
 
-/* Returns value + increment + *carry; *carry becomes the round-off of both sums. *carry contains the error of the
- * rounded constants, which is less than half a unit of the increment's last place. wh_sum() would round it away in
- * every step: 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8 rad. */
+/* Returns value + increment + *carry; *carry becomes the round-off of both sums. The given *carry includes the
+ * increment's error from rounded constants, which is less than half a unit of the increment's last place. wh_sum()
+ * would lose this error: in 1e6 steps of an oscillator, that adds up to 2.5e-5 rad. This sum loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;
@@ -60,7 +60,7 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
  *
  *      angles             the mean rate of each angle over the step
  *      reals              the value of each real after the step; if compensated, its change
- *      reals once more    if compensated: the error of this change from rounding the constants to float
+ *      reals again        only if compensated, for float: what the change lacks because its constants are rounded
  *
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
  * state unchanged. */

@@ -13,8 +13,8 @@
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* tree-ter is off for one coordinate: it moves expressions next to the operation that uses them, which must then wait
- * for their results. That costs up to 4 % of the cycles of a Cortex-M4F. */
+/* tree-ter is off for one coordinate: it moves an expression next to the operation that uses it. This operation
+ * must then wait for the result, which costs up to 4 % of the cycles of a Cortex-M4F. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif

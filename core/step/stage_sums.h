@@ -15,13 +15,13 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* Calls stage(s); for all stages except the first. The loop must be unrolled: otherwise it would read the shares, and
- * multiply by them, at run time. If no pragma unrolls it, the macro has one line for each stage. */
+/* Does the statement `stage(s);` for all stages except stage 0. The loop must be unrolled: otherwise the code would
+ * read the shares, and multiply by them, at run time. A compiler without an unrolling pragma gets a line per stage. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES; s++) { /* with this bound gcc spills less */ \
+        for (unsigned s = 1; s < WH_STAGES; s++) { /* gcc spills more with (by)->stages */ \
             if (s >= (by)->stages) { \
                 break; \
             } \
@@ -83,7 +83,7 @@ WH_INLINE bool wh_begins_away(const wh_tableau *by) {
 /* True if all stages of the method are at the step's begin. */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* Returns the change of position i from the step's begin to a stage, by .places. `rate` is its rate at the begin. */
+/* Returns the change of position i from the begin to a stage, by .places. `rate` is position i's rate at the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -91,9 +91,8 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
-/* True if a stage and the stage before it have equal weights at the step's end. The results of such stages are added
- * before the multiplication: one product replaces two, and the sum may serve positions and rates. If has_positions is
- * false, only the weights of the rates are compared. */
+/* True if a stage and the stage before it have equal weights in .rates and, if has_positions, in .positions. The
+ * derivatives at such stages are added first and multiplied once. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
     return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);

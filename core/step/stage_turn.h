@@ -1,26 +1,26 @@
 /* stage_turn.h: steps whose stages rotate sines and cosines instead of looking them up.
  *
- * A step looks up the sine and cosine of each angle of its list once, at its begin. With the angle's rate r at the
- * begin and r_j at stage j, the angle at stage s is larger by
+ * A step looks up the sine and cosine of each angle of its list once, at its begin (stage 0). Let r be the angle's rate
+ * at stage 0 and r_j its rate at stage j. At stage s, with .stage[s] of method.h, the angle has increased by
  *
  *      c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
  *
- * The first part is a whole multiple of d = c_1 h r, the rotation at the method's second stage. So one sine and one
- * cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or a
- * cosine), w the increment of the last rotation and b = 2 (cos d - 1).
+ * The first part is a whole multiple of d = c_1 h r, the rotation at stage 1. So all stages need only the sine and
+ * cosine of one small angle, two short polynomials. Each rotation by d is p' = p + w, w' = w + b p'. Here p is the sine
+ * or the cosine, w the increment of this rotation, w' that of the next one, and b = 2 (cos d - 1).
  *
  * The second part, the shear angle e, is of order h^2, because r_j - r is of order h. Three shears rotate the pair (s,
- * c) by e: half of e in c, all of e in s, and half of e in c again. The error of this rotation is e^3/6, of order h^6.
- * So the stages agree with looked-up ones to a higher order than any method here has. The classic method has d = h r/2,
- * and with the accelerations a1 and a2 of its first two stages
+ * c) of sine and cosine by e: c -= s e/2, s += c e, c -= s e/2. Their error is e^3/6, of order h^6. So the stages agree
+ * with looked-up ones to a higher order than any method here has. The classic method has d = h r/2. If a_0 and a_1 are
+ * the angle's accelerations at stages 0 and 1, the angle has increased by
  *
- *      stage 2:  d     stage 3:  d, and the shear h^2 a1/4     stage 4:  2 d, and the shear h^2 a2/2
+ *      stage 1:  d     stage 2:  d, and the shear h^2 a_0/4     stage 3:  2 d, and the shear h^2 a_1/2
  *
  * The step moves the angle itself as usual (step.h), and the next step looks up its sine, so no error accumulates.
  *
- * The polynomials are valid if the magnitudes of d, summed over the angles whose sine the list takes, are at most half
- * a radian. For larger d, the rotation is that of d / 2^k, doubled k times (sincos_small.h): the stages are nearly as
- * accurate, and the step takes more instructions. Every step that step.h would accept is accepted. */
+ * The polynomials are used if the sum of |d| over the list's angles is at most half a radian. Otherwise the step
+ * rotates by d / 2^k and doubles this rotation k times (sincos_small.h): the stages are nearly as accurate, but slower.
+ * Every step that step.h would accept is accepted. */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
 
@@ -38,8 +38,8 @@
 #define WH_WAVES 256
 #endif
 
-/* On a PC, rename-registers saves copies: 1 to 6 % fewer instructions. With one angle, no-gcse frees registers by
- * loading constants where they are used: 1 % fewer instructions (2 % more if the list has no quotient). */
+/* On a PC, rename-registers saves copies: 1 to 6 % fewer instructions. With at most one wave, no-gcse loads constants
+ * where they are used, which frees registers: 1 % fewer instructions (2 % more if the list has no division). */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #pragma GCC optimize("rename-registers")
 #if WH_WAVES <= 1
@@ -47,8 +47,8 @@
 #endif
 #endif
 
-/* 1 if a step computes its rotations before its first accelerations: a call for a large d then spills few registers.
- * But the rotations then occupy registers during the accelerations: 3 % more instructions in double on a PC. */
+/* If 1, a step computes its rotations before its first accelerations, so that a call for large ones spills few
+ * registers. But rotations then occupy registers during the accelerations: 3 % more instructions in double on a PC. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
 /* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the phases. */
@@ -57,17 +57,17 @@ typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh
 typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
                                 const wh_real *input, wh_real *slope);
 
-/* The waves: the angles whose sine and cosine a list takes, turn angles or sums of whole multiples of turn angles. */
+/* Waves: the angles whose sine and cosine an operation list takes. Each is a sum of whole multiples of turn angles. */
 typedef struct wh_waves {
     const void *model;
     /* Computes parts[count], the sine and cosine of each wave, from the phases of the angles. */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* Computes result[count], the waves' rates times `scale`, or other quantities that are linear in the angles. */
+    /* Computes result[count], the waves' rates times `scale`, from rate[] of the angles. Also for shear angles. */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
-/* True if the method's stages can rotate sines: its row has .turns, or one stage, at the step's begin. */
+/* True if the method's stages can rotate sines: its row has .turns, or its only stage is at the step's begin. */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
     return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
@@ -75,7 +75,7 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    /* Pairs at the begin, as sums of two parts. If `precise`, the second parts include the increments. */
+    /* The pairs at the begin. Each number has two parts; if `precise`, wh_turning_to() adds rotations to the second. */
     wh_sine_parts parts[WH_WAVES];
     wh_wave at[WH_WAVES]; /* the pairs at the begin, rotated by multiples of d */
     /* if `precise`, the increment of the last rotation; otherwise the pair before that rotation */
@@ -103,8 +103,8 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. Several
- * rotations need a stack frame anyway, so they may be calls: at a step's begin a call spills few registers. */
+/* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. If
+ * n > 1, they may be calls: the code needs a stack frame in any case, and a call at a step's begin spills little. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -138,7 +138,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     }
 }
 
-/* Prepares rotations by turn[], beginning with the pairs in turning->at. */
+/* Prepares rotations of the pairs t->at by turn[]. */
 WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise,
                                 wh_turning *t) {
     WH_UNROLL
@@ -151,7 +151,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Rotates until `turns` rotations are done. If `precise`, sums increments separately, to round each pair only once. */
+/* Rotates until `turns` rotations are done. If `precise`, sums the increments first, to round the pair only once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES; k++) {
@@ -263,7 +263,7 @@ WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* wh_turning_stage() for a method with .places. */
+/* Computes the pairs at stage `stage`, for a method with .places. The shear angles come from the accelerations. */
 WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_given accels, wh_turning *t, wh_wave *pair) {
     const wh_shares *of = &to->by->places->reach[stage];
@@ -323,7 +323,7 @@ typedef struct wh_turned_second {
     wh_real gained[WH_STAGES][WH_COORDS]; /* change of the rates since the begin */
     wh_real rates[WH_STAGES][WH_COORDS];
     wh_real accels[WH_STAGES][WH_COORDS];
-    wh_real alike[WH_STAGES][WH_COORDS]; /* results, summed over stages of equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS]; /* accelerations, summed over stages of equal weights */
 } wh_turned_second;
 
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
@@ -365,7 +365,7 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* Does a step of to->h = h.high. stage_phase[to->angles] gets the phases before each accel(), unless it is NULL. */
+/* Steps by to->h = h.high. If stage_phase is not NULL, stage_phase[to->angles] has the phases during each accel(). */
 WH_INLINE wh_status wh_turn_second_phases(const void *model, wh_turned_accel_fn *accel,
                                           const wh_waves *waves, const wh_stepping *to,
                                           wh_two_part h, wh_phase *stage_phase, wh_state *state) {
@@ -410,7 +410,7 @@ typedef struct wh_turned_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real gained[WH_STAGES][WH_COORDS]; /* derivatives minus the first stage's */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* results, summed over stages of equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* derivatives, summed over stages of equal weights */
 } wh_turned_first;
 
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,

@@ -14,7 +14,7 @@ typedef struct wh_turn_ledger_model {
     const wh_phase *phase; /* phases of the angles [form->angles] at the present stage */
 } wh_turn_ledger_model;
 
-/* A wh_turned_accel_fn that also enters the stage in the ledger, which looks up its own sines. */
+/* A wh_turned_accel_fn that also enters the stage in the ledger. The ledger takes m->phase, not pair[]. */
 WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_turn_ledger_model *m = of;
