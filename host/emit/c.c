@@ -407,7 +407,7 @@ static bool has_multi_step(const image *im) {
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     /* the scene follows the functions, because their local names would hide it */
-    c_header_link(out, "wh_scene", im->name, c_header_of_image, im);
+    c_header_link(out, "scene", im->name, c_header_of_image, im);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
             wh_methods[im->settings.method].name);

@@ -15,17 +15,12 @@ void c_header_names(FILE *out, const image *im);
 /* Writes enumerators of components, inputs and outputs for fixed point. */
 void c_header_fixed_state(FILE *out, const image *im);
 
-/* Writes a header's first lines; `form` follows the scene's name. */
-void c_header_title(FILE *out, const image *im, const char *file, const char *form);
-
-/* Write the line about the licence, and the check that core and scene have one version. */
-void c_header_licence(FILE *out);
-void c_header_version(FILE *out);
 /* Writes the part of the header that follows the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
-/* Writes the scene's declaration by WH_LINKS_TO() of version.h, and the body. */
-void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,
-                      const void *of);
+/* Writes the scene's header. `type`: "scene" or "fixed_scene", without wh_. `form` follows the scene's name in the title.
+ * The declaration is by WH_LINKS_TO() of version.h: it links only if core, header and scene are of one version. */
+void c_header_write(FILE *out, const image *im, const char *file, const char *form,
+                    const char *type, c_header_body *body, const void *of);
 /* Writes the scene's declaration for the scene's .c file, and the scene's second name by WH_LINKED_AS(). */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);

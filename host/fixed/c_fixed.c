@@ -434,7 +434,7 @@ void c_fixed(FILE *out, const fixed_plan *p, const char *file) {
     put_starts(out, p);
     c_fixed_list(out, p->list, p->second);
     put_advance(out, p);
-    c_header_link(out, "wh_fixed_scene", im->name, header_body, p);
+    c_header_link(out, "fixed_scene", im->name, header_body, p);
     fprintf(out,
             "const wh_fixed_scene %s = {\n    .name = \"%s\",\n"
             "    .angles = %d,\n    .reals = %d,\n    .inputs = %d,\n"
@@ -450,13 +450,5 @@ void c_fixed(FILE *out, const fixed_plan *p, const char *file) {
 }
 
 void c_fixed_header(FILE *out, const fixed_plan *p, const char *file) {
-    const image *im = p->image;
-    c_header_title(out, im, file, ", in fixed point");
-    c_header_licence(out);
-    fprintf(out,
-            " */\n#ifndef WHIRL_SCENE_%s_H\n#define WHIRL_SCENE_%s_H\n\n"
-            "#include \"core/fixed_scene.h\"\n",
-            im->name, im->name);
-    c_header_version(out);
-    c_header_declare(out, "wh_fixed_scene", im->name, header_body, p);
+    c_header_write(out, p->image, file, ", in fixed point", "fixed_scene", header_body, p);
 }

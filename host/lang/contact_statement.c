@@ -47,10 +47,10 @@ static contact_statement contact_begun(const parser *in, const statement_word *w
         .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
 }
 
-/* Reports a stop or a hold whose quantity does not depend on a coordinate. */
-static void check_moves(parser *in, place at, const expr *value, const char *what) {
+/* Reports a quantity of a stop, hold or when that does not depend on the motion. */
+static void check_moves(parser *in, place at, const expr *value, const char *rule) {
     if ((value->uses & USES_UNKNOWNS) == 0 && !value->dim.unknown) {
-        diag_error(in->diags, at, NULL, "%s must depend on a coordinate", what);
+        diag_error(in->diags, at, NULL, "%s", rule);
     }
 }
 
@@ -89,7 +89,7 @@ bool read_stop(parser *in, const statement_word *word) {
     if (made.value == NULL) {
         return false;
     }
-    check_moves(in, at, made.value, "the expression of a stop");
+    check_moves(in, at, made.value, "the expression of a stop must depend on a coordinate");
     if (!parser_expect_word(in, WORD_RESTITUTION, WORD_STOP)) {
         return false;
     }
@@ -104,7 +104,7 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
     const expr *value = parse_expression(in, CONTEXT_EVENT);
     dimension wanted;
     if (value != NULL && coordinate != NULL && coordinate->kind == SYM_COORDINATE &&
-        dim_divide(dim_energy(), coordinate->dim, &wanted)) {
+        dim_divide(dim_of_quantity(QUANTITY_ENERGY), coordinate->dim, &wanted)) {
         if (coordinate->is_angle) {
             const char *rule = arena_words(
                 in->arena,
@@ -159,7 +159,7 @@ bool read_hold(parser *in, const statement_word *word) {
     if (made.value == NULL) {
         return false;
     }
-    check_moves(in, at, made.value, "the expression of a hold");
+    check_moves(in, at, made.value, "the expression of a hold must depend on a coordinate");
     if (!parser_expect_word(in, WORD_WHILE, WORD_HOLD)) {
         return false;
     }
@@ -277,10 +277,7 @@ bool read_when(parser *in, const statement_word *word) {
     if (made.value == NULL) {
         return false;
     }
-    if ((made.value->uses & USES_UNKNOWNS) == 0 && !made.value->dim.unknown) {
-        diag_error(in->diags, at, NULL,
-                   "the crossing quantity must depend on a coordinate or a rate");
-    }
+    check_moves(in, at, made.value, "the crossing quantity must depend on a coordinate or a rate");
     if (!take_direction(in, &made)) {
         return false;
     }

@@ -18,15 +18,13 @@ static const symbol *find_output(parser *in, const token *name) {
                    "noise can be added only to an output, and %s is not one", words);
         return NULL;
     }
-    const int later = name_declared_later(name);
+    const char *later = hint_declared_later(in, name);
     nearest search = nearest_start(name->text, name->length);
     for (int i = 0; i < inside->output_count; i++) {
         nearest_offer(&search, inside->outputs[i]->name);
     }
-    const char *hint =
-        later > 0 ? arena_words(in->arena, "move the declaration in line %d above this line", later)
-                  : parser_nearest(in, &search, NULL);
-    diag_error(in->diags, name->at, hint, "unknown output %s", words);
+    diag_error(in->diags, name->at, later != NULL ? later : parser_nearest(in, &search, NULL),
+               "unknown output %s", words);
     return NULL;
 }
 
@@ -198,11 +196,9 @@ bool read_unknown(parser *in, const statement_word *word) {
     symbol *made = declare(in, &name, (symbol_kind)word->kind);
     made = made == NULL ? &unused : made;
     if (in->token.kind == TOKEN_UNIT) {
-        unit_scale written;
         made->is_angle = unit_is_angle(in->token.text, in->token.length);
-        parse_unit(in, &written, &made->unit);
-        made->declared = written;
-        made->dim = written.dim;
+        parse_unit(in, &made->declared, &made->unit);
+        made->dim = made->declared.dim;
     }
     made->text = parser_title(in);
     return parser_end_statement(in, "the declaration");

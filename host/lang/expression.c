@@ -9,16 +9,13 @@
  * Recursion is bounded by NESTING_MAX. */
 #include "host/lang/expression.h"
 
-#include <ctype.h>
 #include <string.h>
 
 #include "host/lang/parser.h"
 
 static const char *skip_blanks(const char *text) { return text + strspn(text, " \t"); }
 
-static bool continues_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
-
-int name_declared_later(const token *name) {
+const char *hint_declared_later(parser *in, const token *name) {
     const source *from = name->at.source;
     const char *text = from->text + name->at.offset;
     const char *const end = from->text + from->length;
@@ -32,17 +29,18 @@ int name_declared_later(const token *name) {
         }
         const int word = word_find(text, length);
         if (word == WORD_MECHANISM) {
-            return 0;
+            return NULL;
         }
         if (word != WORD_COUNT && (word_row((word_id)word)->rules & DECLARES) != 0) {
             const char *declared = skip_blanks(text + length);
             if (strncmp(declared, name->text, name->length) == 0 &&
                 !continues_name(declared[name->length])) {
-                return line;
+                return arena_words(in->arena, "move the declaration in line %d above this line",
+                                   line);
             }
         }
     }
-    return 0;
+    return NULL;
 }
 
 /* Returns a hint such as "write x'" for "xdot", if x is a coordinate, state or let; else NULL. */
@@ -68,9 +66,10 @@ static const char *rate_hint(parser *in, const token *name) {
 
 static void report_unknown(parser *in, const token *name) {
     const char *hint = first_word_hint(name->text, name->length);
-    const int later = in->builder != NULL && !in->all_effects ? name_declared_later(name) : 0;
-    if (later > 0) {
-        hint = arena_words(in->arena, "move the declaration in line %d above this line", later);
+    const char *later =
+        in->builder != NULL && !in->all_effects ? hint_declared_later(in, name) : NULL;
+    if (later != NULL) {
+        hint = later;
     } else if (hint == NULL && (hint = rate_hint(in, name)) == NULL) {
         nearest search = nearest_start(name->text, name->length);
         names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
@@ -174,7 +173,6 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
 }
 
 static const expr *unknown_value(expr *made) {
-    made->dim = dim_none();
     made->dim.unknown = true;
     return made;
 }
@@ -365,12 +363,11 @@ static const expr *parse_number(parser *in) {
     parser_next(in);
     if (in->token.kind == TOKEN_UNIT || (in->bare_units && in->token.kind == TOKEN_NAME)) {
         const place bracket = in->token.at;
-        unit_scale written;
-        parse_unit(in, &written, &in->number_unit_text);
-        in->number_unit = written;
-        made->number = made->number * written.scale / written.divisor;
-        made->exact = enclosure_mul(made->exact, written.exact);
-        made->dim = written.dim;
+        const unit_scale *written = &in->number_unit;
+        parse_unit(in, &in->number_unit, &in->number_unit_text);
+        made->number = made->number * written->scale / written->divisor;
+        made->exact = enclosure_mul(made->exact, written->exact);
+        made->dim = written->dim;
         made->uses = USES_UNIT;
         if (!(made->number - made->number == 0.0)) {
             diag_error(in->diags, bracket, NULL, "in SI units this number is too large");

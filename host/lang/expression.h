@@ -14,8 +14,8 @@ const expr *parse_condition(parser *in);
 /* Reads the current unit token, or a unit without brackets up to the end of the text. *text has no blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
-/* Returns the line of the statement that declares the name later in the same mechanism; 0 if there is none. */
-int name_declared_later(const token *name);
+/* Returns a hint if a later statement of the same mechanism declares the name, else NULL. */
+const char *hint_declared_later(parser *in, const token *name);
 /* Reports an unknown coordinate, with the nearest known name as a hint. */
 void no_such_coordinate(parser *in, const token *name);
 /* As no_such_coordinate(), for a name that a scene or the command line changes. */

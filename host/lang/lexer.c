@@ -41,12 +41,6 @@ place place_after(place from, size_t bytes) {
     return from;
 }
 
-static bool is_letter(int c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-static bool is_digit(int c) { return c >= '0' && c <= '9'; }
-
 /* Reports a carriage return without a line feed. Only a line feed ends a # comment: in a file without line feeds, one
  * comment would hide all text after it. A display, too, may hide text at such a carriage return. */
 static void check_line_ends(const lexer *in) {
@@ -161,7 +155,7 @@ static void read_number(lexer *in, token *made) {
 
 static void read_name(lexer *in, token *made) {
     size_t length = 0;
-    while (is_letter(at_offset(in, length)) || is_digit(at_offset(in, length))) {
+    while (continues_name(at_offset(in, length))) {
         length++;
     }
     made->kind = TOKEN_NAME;
@@ -327,7 +321,7 @@ token lexer_next(lexer *in) {
         made.kind = TOKEN_NEWLINE;
         made.length = 1;
         advance(in, 1);
-    } else if (is_letter(c)) {
+    } else if (begins_name(c)) {
         read_name(in, &made);
     } else if (is_digit(c) || (c == '.' && is_digit(at_offset(in, 1)))) {
         read_number(in, &made);

@@ -45,6 +45,13 @@ typedef struct lexer {
     diags *diags;
 } lexer;
 
+/* ASCII characters, in any locale. A name begins with a letter or an underscore. */
+static inline bool is_digit(int c) { return c >= '0' && c <= '9'; }
+static inline bool begins_name(int c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+static inline bool continues_name(int c) { return begins_name(c) || is_digit(c); }
+
 /* `source` must outlive the lexer. Its text must end with a zero byte after the `length` bytes. */
 lexer lexer_start(const source *source, diags *diags);
 token lexer_next(lexer *in);

@@ -205,12 +205,12 @@ typedef struct scene {
     place at;      /* place of the name */
     int last_line; /* end of its block */
     const mechanism *mechanism;
-    const bool *with; /* [mechanism->effect_count] active effects */
+    bool *with; /* [mechanism->effect_count] active effects */
     const assignment *sets;
     int set_count;
     const assignment *starts;
     int start_count;
-    const bool *conserve;           /* [mechanism->coordinate_count] named by `conserve` */
+    bool *conserve;                 /* [mechanism->coordinate_count] named by `conserve` */
     bool ledger;                    /* `with ledger`: record the balance of energy and momentum */
     const contact_statement *whens; /* `when` statements of the scene itself */
     int when_count;

@@ -214,40 +214,42 @@ static dimension common_dimension(parser *in, place at, const expr *left, const 
     return common;
 }
 
-static void range_error(parser *in, place at, dimension *dim) {
+static bool range_error(parser *in, place at) {
     diag_error(in->diags, at, NULL, "the exponents of this dimension are out of range (99)");
-    *dim = dim_none();
-    dim->unknown = true;
+    return false;
 }
 
-static void power_dimension(parser *in, place at, const expr *base, const expr *exponent,
+/* *dim: the dimension of the power. Returns false if it is unknown; an error was reported. */
+static bool power_dimension(parser *in, place at, const expr *base, const expr *exponent,
                             dimension *dim) {
-    *dim = dim_none();
+    double value = 0.0;
     if (!dim_is_none(exponent->dim)) {
         diag_error(in->diags, at, NULL, "an exponent must be dimensionless, but this is %s",
                    dimension_words(in, exponent->dim));
-        dim->unknown = true;
-        return;
+        return false;
     }
-    double value = 0.0;
-    const bool constant = expr_constant(exponent, &value);
     if (base->dim.unknown || exponent->dim.unknown) {
-        dim->unknown = true;
-    } else if (constant) {
-        if (!dim_power(base->dim, value, dim)) {
-            diag_error(in->diags, at, NULL, "%s to the power %g is no dimension",
-                       dimension_words(in, base->dim), value);
-            dim->unknown = true;
-        }
-    } else if (!dim_is_none(base->dim)) {
-        diag_error(in->diags, at, "make the base dimensionless: (x/L)^n",
-                   "%s needs a constant number as its exponent", dimension_words(in, base->dim));
-        dim->unknown = true;
+        return false;
     }
+    if (!expr_constant(exponent, &value)) {
+        if (!dim_is_none(base->dim)) {
+            diag_error(in->diags, at, "make the base dimensionless: (x/L)^n",
+                       "%s needs a constant number as its exponent",
+                       dimension_words(in, base->dim));
+        }
+        return dim_is_none(base->dim);
+    }
+    if (!dim_power(base->dim, value, dim)) {
+        diag_error(in->diags, at, NULL, "%s to the power %g is no dimension",
+                   dimension_words(in, base->dim), value);
+        return false;
+    }
+    return true;
 }
 
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right) {
     expr *made = right == NULL ? NULL : join(in, op, at, left, right);
+    bool known = true;
     if (made == NULL) {
         return NULL;
     }
@@ -255,24 +257,23 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     case EXPR_ADD: made->dim = common_dimension(in, at, left, right, "add", "and"); break;
     case EXPR_SUB: made->dim = common_dimension(in, at, right, left, "subtract", "from"); break;
     case EXPR_MUL:
-        if (!dim_multiply(left->dim, right->dim, &made->dim)) {
-            range_error(in, at, &made->dim);
-        }
+        known = dim_multiply(left->dim, right->dim, &made->dim) || range_error(in, at);
         break;
     case EXPR_DIV:
         if (right->op == EXPR_NUMBER && right->number == 0.0 && !right->dim.unknown) {
             diag_error(in->diags, at, NULL, "division by zero");
-            made->dim.unknown = true;
-        } else if (!dim_divide(left->dim, right->dim, &made->dim)) {
-            range_error(in, at, &made->dim);
+            known = false;
+        } else {
+            known = dim_divide(left->dim, right->dim, &made->dim) || range_error(in, at);
         }
         break;
-    case EXPR_POW: power_dimension(in, at, left, right, &made->dim); break;
+    case EXPR_POW: known = power_dimension(in, at, left, right, &made->dim); break;
     case EXPR_NUMBER:
     case EXPR_SYMBOL:
     case EXPR_NEG:
     case EXPR_CALL: break;
     }
+    made->dim.unknown |= !known;
     return made;
 }
 

@@ -133,7 +133,7 @@ const expr *override_size(const mechanism *of, const char *name, const char *wha
 
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
                               struct arena *arena, diags *all) {
-    return override_quantity(of, what, text, dim_of(0, 0, 1, 0, 0), arena, all);
+    return override_quantity(of, what, text, dim_of_quantity(QUANTITY_TIME), arena, all);
 }
 
 const char *effect_hint(const mechanism *of, const char *text, size_t length,

@@ -60,9 +60,6 @@ typedef struct builder {
 /* The current scene. */
 typedef struct draft {
     scene *made;
-    bool *with;
-    bool *conserve;
-    builder *of;
     bool has_content; /* has a statement other than `use` */
     place step_at;    /* line 0: no step yet */
     place until_at;
@@ -93,7 +90,7 @@ typedef struct parser {
     bool all_effects;          /* a scene may name the parameters of every effect */
     bool bare_units; /* a unit without brackets may follow a number, up to the end of the text */
     const struct names *names; /* NULL: no names allowed */
-    builder *builder;          /* the current mechanism, or NULL */
+    builder *builder;          /* the current mechanism, or that of the current scene, or NULL */
     draft *draft;              /* the current scene, or NULL */
     builder **builders;
     int builder_count;

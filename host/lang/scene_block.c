@@ -16,23 +16,23 @@ static bool scene_fail_name(parser *in, const statement_word *word) {
 }
 
 static bool read_with(parser *in, const statement_word *word) {
-    draft *into = in->draft;
+    scene *made = in->draft->made;
     if (in->token.kind != TOKEN_NAME) {
         return scene_fail_name(in, word);
     }
     const token name = in->token;
-    const mechanism *of = into->made->mechanism;
+    const mechanism *of = made->mechanism;
     parser_next(in);
     if (token_is_word(&name, WORD_NONE)) {
         return true;
     }
     if (token_is_word(&name, WORD_LEDGER)) {
-        into->made->ledger = true;
+        made->ledger = true;
         return true;
     }
     for (int i = 0; i < of->effect_count; i++) {
         if (token_is(&name, of->effects[i].name)) {
-            into->with[i] = true;
+            made->with[i] = true;
             return true;
         }
     }
@@ -50,7 +50,7 @@ static bool scene_take_symbol(parser *in, const statement_word *word, token *nam
     }
     *name = in->token;
     parser_next(in);
-    const named *known = names_find(in->draft->of->names, name->text, name->length);
+    const named *known = names_find(in->names, name->text, name->length);
     if (known == NULL) {
         no_such_symbol(in, in->draft->made->mechanism, name);
     }
@@ -80,12 +80,11 @@ static bool read_set(parser *in, const statement_word *word) {
 }
 
 /* Reports a `set` for a symbol of an unselected effect. Called at the scene's end, because `with` may follow `set`. */
-static void scene_check_sets(parser *in, const draft *read) {
-    const scene *made = read->made;
+static void scene_check_sets(parser *in, const scene *made) {
     for (int i = 0; i < made->set_count; i++) {
         const assignment *each = &made->sets[i];
         const int of = each->symbol->effect;
-        if (of >= 0 && !read->with[of]) {
+        if (of >= 0 && !made->with[of]) {
             const char *name = made->mechanism->effects[of].name;
             diag_error(in->diags, each->at,
                        arena_words(in->arena, "add to the scene: with %s", name),
@@ -129,7 +128,7 @@ static bool read_conserve(parser *in, const statement_word *word) {
     if (what != NULL && (what->kind != SYM_COORDINATE || name.primes > 0)) {
         diag_error(in->diags, name.at, NULL, "conserve takes coordinates, without primes");
     } else if (what != NULL) {
-        in->draft->conserve[what->index] = true;
+        in->draft->made->conserve[what->index] = true;
     }
     return true;
 }
@@ -222,18 +221,17 @@ static bool read_range(parser *in, const statement_word *word) {
 
 /* === the block and its statements ============================================================= */
 
-static void choose_mechanism(parser *in, draft *into, builder *chosen) {
-    into->of = chosen;
-    into->made->mechanism = chosen->made;
-    into->with = arena_alloc(in->arena, (size_t)chosen->made->effect_count * sizeof *into->with);
-    into->conserve =
-        arena_alloc(in->arena, (size_t)chosen->made->coordinate_count * sizeof *into->conserve);
+static void choose_mechanism(parser *in, builder *chosen) {
+    const mechanism *of = chosen->made;
+    scene *made = in->draft->made;
+    made->mechanism = of;
+    made->with = arena_alloc(in->arena, (size_t)of->effect_count * sizeof *made->with);
+    made->conserve = arena_alloc(in->arena, (size_t)of->coordinate_count * sizeof *made->conserve);
     in->builder = chosen;
     in->names = chosen->names;
 }
 
 static bool read_use(parser *in, const statement_word *word) {
-    draft *into = in->draft;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
         return scene_fail_name(in, word);
     }
@@ -242,14 +240,14 @@ static bool read_use(parser *in, const statement_word *word) {
     nearest search = nearest_start(name.text, name.length);
     for (int i = 0; i < in->builder_count; i++) {
         if (token_is(&name, in->builders[i]->made->name)) {
-            choose_mechanism(in, into, in->builders[i]);
+            choose_mechanism(in, in->builders[i]);
             return parser_end_statement(in, "the mechanism's name");
         }
         nearest_offer(&search, in->builders[i]->made->name);
     }
     diag_error(in->diags, name.at, parser_nearest(in, &search, NULL),
                "no mechanism %s in this file", token_words(in, &name));
-    into->of = NULL;
+    in->builder = NULL;
     return true;
 }
 
@@ -266,7 +264,7 @@ static bool parse_duration(parser *in, const statement_word *word, place *first,
     if (value == NULL) {
         return false;
     }
-    check_named(in, at, value, dim_of(0, 0, 1, 0, 0), word->text, "is");
+    check_named(in, at, value, dim_of_quantity(QUANTITY_TIME), word->text, "is");
     *into = value;
     return parser_end_statement(in, "the expression");
 }
@@ -291,7 +289,7 @@ static bool parse_scene_statement(parser *in) {
     if (uses && into->has_content) {
         diag_error(in->diags, in->token.at, NULL, "'use' must be the first statement of a scene");
     }
-    if (!uses && into->of == NULL) {
+    if (!uses && in->builder == NULL) {
         into->has_content = true;
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
                    "scene '%s' belongs to no mechanism", into->made->name);
@@ -321,11 +319,11 @@ static bool parse_body(parser *in) {
     draft *into = in->draft;
     bool closed;
     while (parser_in_block(in, ENDS_SCENE, &closed)) {
-        const bool had_mechanism = into->of != NULL;
+        const bool had_mechanism = in->builder != NULL;
         if (!parse_scene_statement(in)) {
             parser_skip_statement(in);
         }
-        if (into->of == NULL && (had_mechanism || into->has_content)) {
+        if (in->builder == NULL && (had_mechanism || into->has_content)) {
             return false; /* unknown mechanism: no further checks */
         }
     }
@@ -347,6 +345,7 @@ void read_noted_scene(parser *in, const pending_scene *pending) {
     in->draft = into;
     in->parentheses = 0;
     in->nesting = 0;
+    in->builder = NULL;
     in->effect = -1;
     in->all_effects = true;
     into->made->at = pending->at;
@@ -370,17 +369,15 @@ void read_noted_scene(parser *in, const pending_scene *pending) {
         return;
     }
     if (pending->inside != NULL) {
-        choose_mechanism(in, into, pending->inside);
+        choose_mechanism(in, pending->inside);
     }
-    in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
-    in->scenes[in->scene_count++] = into->made;
+    in->scenes =
+        arena_push(in->arena, in->scenes, &in->scene_count, &into->made, sizeof into->made);
     const bool good = parse_body(in);
-    if (good && into->of == NULL) {
+    if (good && in->builder == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
                    "scene '%s' belongs to no mechanism", into->made->name);
     } else if (good) {
-        scene_check_sets(in, into);
+        scene_check_sets(in, into->made);
     }
-    into->made->with = into->with;
-    into->made->conserve = into->conserve;
 }

@@ -59,7 +59,8 @@ bool read_energy(parser *in, const statement_word *word) {
     if (value == NULL || !parser_end_statement(in, "the expression")) {
         return false;
     }
-    const dimension wanted = kind == TERM_F ? dim_of(2, 1, -3, 0, 0) : dim_energy();
+    const dimension wanted =
+        kind == TERM_F ? dim_of_quantity(QUANTITY_POWER) : dim_of_quantity(QUANTITY_ENERGY);
     if (value->op == EXPR_NUMBER) {
         check_dimension(in, value_at, value, wanted, term_rule(kind));
     } else if (!dim_fits(value->dim, wanted)) {
@@ -109,9 +110,9 @@ bool read_force(parser *in, const statement_word *word) {
     if (coordinate != NULL) {
         dimension wanted;
         if (dim_is_none(coordinate->dim)) {
-            check_dimension(in, value_at, value, dim_energy(),
+            check_dimension(in, value_at, value, dim_of_quantity(QUANTITY_ENERGY),
                             arena_words(in->arena, "%s must be a torque [kg*m^2/s^2]", what));
-        } else if (dim_divide(dim_energy(), coordinate->dim, &wanted)) {
+        } else if (dim_divide(dim_of_quantity(QUANTITY_ENERGY), coordinate->dim, &wanted)) {
             check_named(in, value_at, value, wanted, what, "must be");
         }
     }

@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "host/base/spelling.h"
+#include "host/lang/lexer.h"
 #include "host/number/functions.h"
-
-static dimension dim_of_quantity(quantity_id which);
 
 /* === units ==================================================================================== */
 
@@ -142,12 +141,6 @@ static char peek(reader *in) {
     return in->at < in->length ? in->text[in->at] : '\0';
 }
 
-static bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 static const unit_entry *find_unit(const char *name, size_t length) {
     for (int i = 0; i < UNIT_COUNT; i++) {
         if (strlen(units[i].name) == length && memcmp(units[i].name, name, length) == 0) {
@@ -228,12 +221,12 @@ static bool read_exponent(reader *in, double *exponent) {
     }
     double tenths = 0.0;
     if (in->at < in->length && in->text[in->at] == '.') {
-        double place = 1.0;
+        double scale = 1.0;
         for (in->at++; in->at < in->length && is_digit(in->text[in->at]); in->at++) {
-            place *= 10.0;
+            scale *= 10.0;
             tenths = tenths * 10.0 + (in->text[in->at] - '0');
         }
-        tenths /= place;
+        tenths /= scale;
     } else if (open && peek(in) == '/') {
         in->at++;
         if (!read_whole(in, &below)) {
@@ -287,8 +280,8 @@ static bool read_factor(reader *in, unit_scale *result) {
     } else if (is_digit(c) || c == '.') {
         return fail(in, start, "a unit contains no number except 1",
                     "write numbers before the bracket: 2.5 [m/s]");
-    } else if (is_letter(c)) {
-        while (in->at < in->length && (is_letter(in->text[in->at]) || is_digit(in->text[in->at]))) {
+    } else if (begins_name(c)) {
+        while (in->at < in->length && continues_name(in->text[in->at])) {
             in->at++;
         }
         const unit_entry *found = find_unit(in->text + start, in->at - start);
@@ -364,7 +357,7 @@ bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error 
     }
     peek(&in);
     if (in.at < in.length) {
-        if (is_letter(in.text[in.at])) {
+        if (begins_name(in.text[in.at])) {
             return fail(&in, in.at, "an operator is missing between two units", "write N*m, m/s");
         }
         if ((unsigned char)in.text[in.at] >= 0x80) {
@@ -417,8 +410,6 @@ dimension dim_of(int length, int mass, int time, int current, int temperature) {
     }
     return dim;
 }
-
-dimension dim_energy(void) { return dim_of(2, 1, -2, 0, 0); }
 
 static bool same_exponents(dimension a, dimension b) {
     for (int i = 0; i < DIM_BASES; i++) {
@@ -479,7 +470,7 @@ bool dim_power(dimension base, double exponent, dimension *power) {
 
 bool dim_derivative(dimension of, int primes, dimension *derivative) {
     dimension per_time;
-    return dim_power(dim_of(0, 0, -1, 0, 0), primes, &per_time) &&
+    return dim_power(dim_of_quantity(QUANTITY_FREQUENCY), primes, &per_time) &&
            dim_multiply(of, per_time, derivative);
 }
 
@@ -555,7 +546,7 @@ static const quantity_row quantities[] = {
 };
 enum { QUANTITIES = sizeof quantities / sizeof quantities[0] };
 
-static dimension dim_of_quantity(quantity_id which) {
+dimension dim_of_quantity(quantity_id which) {
     const signed char *e = quantities[which].exponents;
     return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
 }

@@ -59,7 +59,7 @@ typedef struct dimension {
 
 dimension dim_of(int length, int mass, int time, int current, int temperature);
 dimension dim_none(void);
-dimension dim_energy(void); /* also the dimension of torque */
+dimension dim_of_quantity(quantity_id which);
 
 /* True if the dimensions are equal, or if one of them fits every dimension. */
 bool dim_fits(dimension a, dimension b);

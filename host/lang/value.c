@@ -19,7 +19,7 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
 
 unit_scale shown_unit(const symbol *s) {
     const unit_scale si = {1.0, 1.0, s->dim, enclosure_of(1.0)};
-    return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
+    return unit_is_si(s->declared) ? si : s->declared;
 }
 
 char *shown_si_name(const symbol *s, int primes) {

@@ -53,9 +53,8 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the longest let that, times *ratio, is contained in p (`whole`: equals p), or NULL. *rest: p without it. */
-static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
-                              double *ratio) {
+/* Returns the longest let that, times *ratio, is contained in p (`whole`: equals p), or NULL. */
+static const let_row *show_let(const show *s, const poly *p, bool whole, double *ratio) {
     let_row *best = NULL;
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
         let_row *r = &s->lets->row[i];
@@ -67,13 +66,10 @@ static const symbol *show_let(const show *s, const poly *p, bool whole, const po
             *ratio = here;
         }
     }
-    if (best == NULL) {
-        return NULL;
+    if (best != NULL) {
+        best->used = true;
     }
-    best->used = true;
-    *rest = whole ? poly_number(s->algebra, 0.0)
-                  : poly_sub(s->algebra, p, poly_scale(s->algebra, best->value, *ratio));
-    return best->let;
+    return best;
 }
 
 static const symbol *show_let_factor(const show *s, const atom *x, double exponent) {
@@ -228,10 +224,9 @@ static void show_call(const show *s, function_id function, const poly *x, const 
 
 void show_grouped(const show *s, const poly *p) {
     double ratio;
-    const poly *rest;
-    const symbol *let = show_let(s, p, true, &rest, &ratio);
-    if (let != NULL && ratio == 1.0) {
-        show_symbol(s, let, 0);
+    const let_row *named = show_let(s, p, true, &ratio);
+    if (named != NULL && ratio == 1.0) {
+        show_symbol(s, named->let, 0);
         return;
     }
     show_open(s);
@@ -488,13 +483,13 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
 
 /* Prints the names of terms of *p, and removes these terms from *p. Returns false if no term remains. */
 static bool show_let_parts(const show *s, const poly **p, bool *leading) {
+    algebra *a = s->algebra;
     double ratio;
-    const poly *rest;
-    const symbol *let;
-    while ((let = show_let(s, *p, false, &rest, &ratio)) != NULL) {
-        show_named(s, let, ratio, *leading);
+    const let_row *named;
+    while ((named = show_let(s, *p, false, &ratio)) != NULL) {
+        show_named(s, named->let, ratio, *leading);
         *leading = false;
-        *p = rest;
+        *p = poly_sub(a, *p, poly_scale(a, named->value, ratio));
     }
     return !poly_is_zero(*p);
 }
@@ -645,8 +640,8 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         show_group(s, without, one, false);
         return;
     }
-    show_sum(s, p, (wave){NULL, 0, 0},
-             leading); /* every term contains `shared`, but not in one power */
+    /* every term contains `shared`, but not in one power */
+    show_sum(s, p, (wave){NULL, 0, 0}, leading);
 }
 
 /* Prints "*key", unless the key is 1. */
@@ -662,10 +657,9 @@ static void show_behind(const show *s, const poly *key) {
 static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
     algebra *a = s->algebra;
     double ratio;
-    const poly *rest;
-    const symbol *let = show_let(s, p, true, &rest, &ratio);
-    if (let != NULL) {
-        show_named(s, let, ratio, leading);
+    const let_row *named = show_let(s, p, true, &ratio);
+    if (named != NULL) {
+        show_named(s, named->let, ratio, leading);
         show_behind(s, key);
         return;
     }
@@ -689,7 +683,6 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     const poly *common = show_common(a, p);
     const poly *inside = poly_mul(a, p, poly_pow(a, common, -1.0));
     inside = poly_scale(a, inside, (negative ? -1.0 : 1.0) / number);
-    const bool bare = key->terms[0].mono->count == 0;
     if (algebra_overflow(a)) { /* no more factoring */
         show_sign(s, false, leading);
         show_grouped(s, p);
@@ -699,7 +692,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     const mono *outside = common->terms[0].mono;
     const wave turning = common_wave(a, inside);
     const bool plain = outside->count == 0 && number == 1.0 && turning.angle == NULL;
-    if (bare && plain && !negative) {
+    if (key->terms[0].mono->count == 0 && plain && !negative) {
         show_parted(s, p, leading);
         return;
     }
@@ -723,7 +716,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
         show_factors(s, &front, 1, &first);
     }
     show_separate(s, &first);
-    if (turning.angle == NULL && show_let(s, inside, true, &rest, &ratio) != NULL) {
+    if (turning.angle == NULL && show_let(s, inside, true, &ratio) != NULL) {
         show_grouped(s, inside);
     } else {
         show_open(s);
