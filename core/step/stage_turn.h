@@ -62,7 +62,7 @@ typedef struct wh_waves {
     const void *model;
     /* Computes parts[count], the sine and cosine of each wave, from the phases of the angles. */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* Computes result[count], the waves' rates times `scale`, from rate[] of the angles. Also for shear angles. */
+    /* Computes result[count], the waves' rates times `scale`, from rate[] of the angles. Also used for shear angles. */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
@@ -104,7 +104,7 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
 }
 
 /* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. If
- * n > 1, they may be calls: the code needs a stack frame in any case, and a call at a step's begin spills little. */
+ * n > 1, they may be calls, because the code then needs a stack frame in any case. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
