@@ -45,7 +45,7 @@ typedef struct simulation {
     int output;           /* the first output that was not a finite number, or -1 */
     double output_s;      /* time when an output was first not finite */
     double trusted_s;     /* the plot is shaded after this time; below or at 0: no shade */
-    uint64_t output_rows; /* number of records and points in which an output was not finite */
+    uint64_t output_rows; /* number of checked rows in which an output was not finite */
 } simulation;
 
 /* Returns false if the file cannot be opened. NULL is fine. */
@@ -94,7 +94,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* Undefined outputs make a run fail at its end, too. They are checked when recorded or drawn, and at the end. */
+/* If an output is not finite in a row that is recorded or drawn, or at the end, the run fails at its end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -132,7 +132,7 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
-/* Marks the events of the step, except releases of stops and events too near to the last mark for a picture. */
+/* Marks the step's events. Skips releases of stops, and events too close to the last mark to see both in a picture. */
 static void mark_events(simulation *sim, uint64_t step) {
     engine_event list[WH_EVENT_LOG];
     plot_run *to = &sim->course;
@@ -282,7 +282,7 @@ static simulation_result conclude(simulation *sim, wh_status status, bool ended)
     }
     const books *b = sim->checks->books;
     if (status == WH_OK && b != NULL && b->undefined &&
-        sim->output < 0) { /* remedies do not apply to outputs */
+        sim->output < 0) { /* no remedy is sought for an undefined output */
         findings_say_failed(stderr, sim->checks);
     }
     if (status != WH_OK || undefined) {

@@ -2,7 +2,7 @@
  *
  * A float turn angle is rounded to 2^-32 turn, 1.5e-9 rad. If it should move by less than half a unit per step, it
  * does not move; slightly above that, its rate is wrong. In fixed point all components are rounded to units of their
- * ranges. A component is slow if the summed round-off of its steps exceeds SLOW_SHARE of its range and a few units. */
+ * ranges. A component is slow if the summed round-off of its steps exceeds a few units, and SLOW_SHARE of its range. */
 #ifndef CHECK_SLOW_H
 #define CHECK_SLOW_H
 
@@ -11,13 +11,13 @@
 #include "host/engine/engine.h"
 
 #define SLOW_SHARE 1e-3
-#define SLOW_LEAST_RAD 3e-9  /* two units: the round-off of an angle that hardly moves, rad */
-#define SLOW_LEAST_UNITS 4.0 /* in fixed point, which also rounds accelerations to units */
+#define SLOW_LEAST_RAD 3e-9  /* two units: an angle that hardly moves may have this round-off */
+#define SLOW_LEAST_UNITS 4.0 /* four in fixed point, which also rounds the accelerations to units */
 
 /* Does component i move so slowly that its round-off shows? Angles come first. */
 bool slow_component(const engine_kind *kind, const void *run, int i);
 
-/* The number of slow components. *share: their largest round-off, as a part of the component's range; 0: none. */
+/* Returns the number of slow components. *share: their largest ratio of round-off to range; 0 if none is slow. */
 int slow_count(const engine_kind *kind, const image *im, const void *run, double *share);
 
 /* slow_say(): prints a note for each slow component, and remedies. slow_message(): only the text of the first note. */

@@ -47,7 +47,7 @@ static void look_at_list(const image *im, image_role role, const double *x, doub
         }
         for (int i = 0; i < im->ways * results; i++) {
             const double now = fabs(off[i] - value[i % results]);
-            off[i] = isfinite(now) ? now : 0.0; /* a pole: reported elsewhere */
+            off[i] = isfinite(now) ? now : 0.0; /* infinite at a pole: ignored */
         }
     }
     add_shares(off, im->ways, results, share);
@@ -64,8 +64,8 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* The variant that differs most near the scene's start; NULL: no variants. Evaluates at the start, and with one SI unit
- * added to each component in turn, because a zero component may hide the error of a factor. */
+/* The variant whose lists differ most from the scene's near the start; NULL: no variants. Evaluates the lists at the
+ * start, and with 1 SI unit added to each component in turn, because a zero component may hide its factors' errors. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -120,14 +120,14 @@ int step_doubling_order(const image *im) {
     return op_list_has_kinks(im->list[IMAGE_STEP]) ? 1 : wh_methods[step_doubling_method(im)].order;
 }
 
-/* Gives the finer run constants with other roundings: the same constants would have the same round-off in both runs. */
+/* Replaces the finer run's constants by a variant. If both runs had the same ones, their round-off would not show. */
 static void fold_the_other_way(image *im) {
     const image *other = constant_sensitivity_furthest(im);
     for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
         const bool is_its_own = role != IMAGE_MATRIX || im->step_s == other->step_s;
         im->list[role] = is_its_own ? other->list[role] : im->list[role];
     }
-    if (other != NULL && im->base == NULL) { /* a point of a sweep has its own start */
+    if (other != NULL && im->base == NULL) { /* a point of a sweep keeps its own start */
         im->start_rad = other->start_rad;
         im->start_turns = other->start_turns;
         im->start_real = other->start_real;
@@ -142,7 +142,7 @@ static void make_finer(step_doubling *t, const image *im) {
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
-    /* otherwise both runs would follow the same wrong motion */
+    /* if both runs were stabilized, both would follow the same wrong motion */
     t->finer.settings.stabilized = false;
     t->each = 1;
     t->left_out = 1.0;
@@ -213,8 +213,8 @@ double passages_until_s(const passages *p, double level) {
 typedef struct rounded {
     state_list list; /* IMAGE_STEP */
     double *off;
-    double *most;   /* [results]: largest bound of all samples with a bound */
-    uint64_t *lost; /* [results]: number of samples without a bound */
+    double *most;   /* [results]: largest finite bound of the samples, in units of UNIT */
+    uint64_t *lost; /* [results]: number of samples whose bound is not finite */
     uint64_t looks; /* number of samples */
 } rounded;
 
@@ -262,7 +262,7 @@ static void rounded_close(rounded *r) {
     free(r);
 }
 
-/* The index of this derivative in the results of the list, or -1. */
+/* The unknown's derivative of order `primes`: its index in the results of IMAGE_STEP, or -1. */
 static int result_of(const image *im, int unknown, int primes) {
     if (im->form == WH_SECOND_ORDER) {
         return primes == 2 ? im->place[unknown] : -1;
@@ -286,7 +286,7 @@ static void take_rounding(step_doubling *t) {
         }
         const int result = result_of(r->list.image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* A state without a bound is at a pole, or at a root of nearly zero; it counts only if most states are. */
+            /* A bound is infinite at a pole, or at a root of nearly zero. It is ignored unless most samples have it. */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
@@ -319,8 +319,8 @@ static void take_places(step_doubling *t) {
 
 /* --- side by side ------------------------------------------------------------------------------------*/
 
-/* Compares the two runs. With contacts a difference must last for two comparisons, because the runs may have an event
- * in different steps. In a run of one step, the only comparison counts. */
+/* Compares the two runs. With contacts, a difference counts only if two comparisons in succession find it, because the
+ * runs may have an event in different steps. A run of one step has only one comparison after its start: it suffices. */
 static void look(step_doubling *t, double time_s) {
     const image *im = t->shape->image;
     const bool events = im->contacts > 0 && im->steps > 1U;
@@ -333,7 +333,7 @@ static void look(step_doubling *t, double time_s) {
         const double now = isfinite(off) ? off : (double)INFINITY;
         const double ranged = t->otherwise ? t->shape->row[k] : value;
         c->start = t->looks == 0 ? value : c->start;
-        if (t->cut_s < 0.0) { /* after a jump over a pole the finer run may diverge */
+        if (t->cut_s < 0.0) { /* after cut_s the finer run may diverge */
             c->low = t->looks == 0 || ranged < c->low ? ranged : c->low;
             c->high = t->looks == 0 || ranged > c->high ? ranged : c->high;
         }

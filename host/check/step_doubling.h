@@ -12,7 +12,7 @@
 
 enum { STEP_DOUBLING_LOOKS = 20000 }; /* most comparisons of the two runs, at equal intervals */
 
-/* In the comparison after `time_s` the difference reached `size` for the first time. */
+/* The comparison that followed `time_s` was the first with a difference of `size`. */
 typedef struct passage {
     double time_s;
     double size;
@@ -27,7 +27,7 @@ typedef struct passages {
 
 #define PASSAGE_GRAIN 1e-3 /* relative resolution of the recorded sizes */
 
-/* Enters a comparison with the difference `size`; the comparison before was at before_s. NaN exceeds every level. */
+/* Enters a comparison with the difference `size`. before_s: time of the previous one. NaN exceeds every level. */
 void passages_enter(passages *p, double before_s, double size);
 void passages_free(passages *p);
 
@@ -40,10 +40,10 @@ typedef struct step_doubling_column {
     double high;     /* largest such value */
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
-    bool has_rate;   /* the column's rate is in the state, so the column's origin is arbitrary */
-    bool written;    /* the start is the scene's number, without round-off */
-    int place;       /* of a rate: the column of its coordinate; else this column */
-    double one;      /* one SI unit, in the column's unit */
+    bool has_rate;   /* the state has the column's rate, so that the column's origin is arbitrary */
+    bool written;    /* the scene gives the start value as a number, so it has no round-off */
+    int place;       /* index of its coordinate's column, if it is a rate; else its own index */
+    double one;      /* number of the column's units in one SI unit */
     double alike;    /* the largest range of all positions with the column's unit */
     passages off;
 } step_doubling_column;
@@ -62,22 +62,22 @@ typedef struct step_doubling {
     image finer;         /* the finer run's image; shares the lists of the image it was made from */
     uint64_t each;       /* steps of the finer run in one step of the run */
     uint64_t operations; /* operations of all steps of the finer run */
-    double left_out;     /* factor on the difference that adds the finer run's own error */
+    double left_out;     /* estimated error of the run, divided by the runs' difference */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
-    bool otherwise; /* the finer run's constants round differently; low and high are the run's */
-    int columns;    /* number of columns without outputs: the time, coordinates and rates */
+    bool otherwise;      /* the finer run's constants have other roundings */
+    int columns; /* number of columns that are no outputs: the time, coordinates and rates */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */
     wh_status status;             /* of the run's last step */
     void *run;                    /* the caller's run */
     bool unwrapped;        /* the finer run failed at an angle beyond the range of double's sine */
     double finer_failed_s; /* begin of the step in which the finer run failed; below 0: none */
-    double overrun_s;      /* begin of a step of either run with too many events; below 0: none */
-    double jumped_s;       /* begin of a step of the run over a pole (pole.h); below 0: none */
+    double overrun_s;      /* in either run, begin of a step with too many events; below 0: none */
+    double jumped_s;       /* begin of the step that jumped over a pole (pole.h); below 0: none */
     bool missed;  /* true: a missed contact or force at jumped_s (missed.h); false: a pole */
     double cut_s; /* after this time nothing is known (failure, overrun, jump); below 0: none */
     step_doubling_aliased aliased; /* set by aliasing_find() */
-    bool unaliased;                /* the budget was too small for aliasing's third run */
+    bool unaliased;                /* aliasing_find() could not finish: the budget was too small */
     const pole_crossing *jumped;   /* the run's search for poles; NULL: the scene needs none */
     records *finers;               /* like shape, for the finer run */
     void *finer_run;
@@ -101,7 +101,7 @@ void step_doubling_enter(step_doubling *t);
 void step_doubling_end(step_doubling *t, wh_status status);
 void step_doubling_free(step_doubling *t); /* NULL is fine */
 
-/* Estimated operations of both runs; of the finer run alone, without the search for events. */
+/* Estimated operations of both runs. For the finer run alone, the search for events is left out. */
 double step_doubling_operations(const image *im);
 double step_doubling_finer_operations(const image *im);
 

@@ -13,7 +13,7 @@
 
 enum { STEP_WORD = 40 };
 
-/* The largest of 1, 2 and 5 times powers of ten, s, that is at most most_s and at most 1000 s; 0 if there is none. */
+/* Rounds most_s down to 1, 2 or 5 times a power of ten. Returns at most 5000 s, and 0 below 1e-12 s. */
 double step_nice_s(double most_s);
 /* "200us", with enough digits to be read back exactly; returns `text`. */
 const char *step_text(double step_s, char text[STEP_WORD]);
@@ -27,7 +27,7 @@ char *about_facts(const image *im, const engine_kind *kind, const void *run);
 char *about_tables(const image *im);
 
 /* === the opening sentence ===================================================================== */
-/* A summary's first sentence: constant outputs or a conserved momentum, and ranges of moving quantities. */
+/* A summary's first sentences: the constant outputs; if none, a conserved momentum and the motions' ranges. */
 
 typedef struct opening {
     uint64_t each; /* steps between sampled rows */
