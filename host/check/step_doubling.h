@@ -27,7 +27,7 @@ typedef struct passages {
 
 #define PASSAGE_GRAIN 1e-3 /* relative resolution of the recorded sizes */
 
-/* Enters a comparison with the difference `size`. before_s: time of the previous one. NaN exceeds every level. */
+/* Enters the difference `size`. before_s: time of the last comparison before it. NaN exceeds every level. */
 void passages_enter(passages *p, double before_s, double size);
 void passages_free(passages *p);
 
