@@ -13,8 +13,8 @@
 #include "host/number/decimal.h"
 
 /* === c names ================================================================================== */
-/* A scene is a global object in arbitrary programs. So its name cannot be a name of C's library, which would conflict
- * with a declaration, macro or definition, nor a built-in function. tests/host/test_c_names.c checks the lists. */
+/* A scene is a global object in arbitrary programs. Its name must not be that of a built-in function or of C's library,
+ * because it would conflict with a declaration, macro or definition. tests/host/test_c_names.c checks the lists. */
 
 /* Keywords, up to C23. */
 static const char words_of_c[] =
@@ -573,7 +573,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     const int components = second ? im->coordinates : im->angles + im->reals;
     const int stages = wh_methods[im->settings.method].stages;
     write_banner(out, im, file);
-    /* memory for fewer than four stages would not make gcc spill fewer values */
+    /* at least four stages: with less room, gcc would spill just as many values */
     fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components,
             stages > 4 ? stages : 4);
     if (turns) {

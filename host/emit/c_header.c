@@ -1,7 +1,7 @@
 /* c_header.c: a scene's header for C11 and C++11: the indices of components, inputs and outputs, by name, their units,
  * and the size of memory. Every name is SCENE_KIND_NAME, with scene and name as in the file. Names are unique, because
- * no KIND is another one plus an underscore; none is a word of C or C++. They are macros or enumerators of one type
- * (C++20 deprecates adding two enumeration types), so unused ones take no memory. */
+ * no KIND begins with another KIND and an underscore. Every name is a macro or an enumerator, so unused ones take no
+ * memory. All enumerators have one type, because C++20 deprecates adding values of two enumeration types. */
 #include "c_header.h"
 
 #include <inttypes.h>
@@ -44,9 +44,9 @@ void c_comment(FILE *out, const char *text) {
 typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } list;
 
 static const struct {
-    const char *counted; /* last word of SCENE_ANGLES and SCENE_NAMES_OF_ANGLES */
-    const char *value;   /* the KIND of a component, and of its rate */
-    const char *rate;
+    const char *counted; /* last word of such names as SCENE_ANGLES and SCENE_NAMES_OF_ANGLES */
+    const char *value;   /* KIND in the name of a value, such as SCENE_ANGLE_phi */
+    const char *rate;    /* KIND in the name of a rate */
     const char *where;
 } lists[LISTS] = {
     [LIST_ANGLES] = {"ANGLES", "ANGLE", "ANGLERATE",
@@ -74,7 +74,7 @@ static item of_unknown(const image *im, component c) {
 }
 
 static item item_of(const image *im, list of, int i) {
-    const int k = i - im->own_outputs; /* value or rate of a recovered coordinate */
+    const int k = i - im->own_outputs; /* if >= 0: value or rate of from_momentum[k / 2] */
     if (of == LIST_ANGLES || of == LIST_REALS) {
         return of_unknown(im, of == LIST_ANGLES ? im->angle[i] : im->real[i]);
     }
@@ -138,7 +138,7 @@ static void write_strings(FILE *out, const image *im, list of) {
     fputs("}\n", out);
 }
 
-/* Defines a number. Its text gets a point if it has no exponent, because WH_R() needs one of them. */
+/* Defines a number. WH_R() appends a suffix to its text, which must therefore have a point or an exponent. */
 static void define_number(FILE *out, const image *im, const char *kind, const char *name,
                           double value) {
     char text[40];
@@ -204,7 +204,7 @@ void c_header_fixed_state(FILE *out, const image *im) {
                 "fixed-point code computes no outputs: these number a table of your own");
 }
 
-/* "SCENE_HEADER_1a2b3c4d", with a hash of the body without comments; to be freed. */
+/* Returns "SCENE_HEADER_1a2b3c4d", to be freed. The number is a hash of the body without its comments. */
 static char *linked_name(const char *scene, c_header_body *body, const void *of) {
     char *text;
     size_t length;

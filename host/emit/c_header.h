@@ -18,13 +18,13 @@ void c_header_fixed_state(FILE *out, const image *im);
 /* Writes the part of the header that follows the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
 /* Writes the scene's header. `type`: "scene" or "fixed_scene", without wh_. `form` follows the scene's name in the title.
- * The declaration is by WH_LINKS_TO() of version.h: it links only if core, header and scene are of one version. */
+ * The declaration has WH_LINKS_TO() of core/version.h: it links only with the .c file that belongs to this header. */
 void c_header_write(FILE *out, const image *im, const char *file, const char *form,
                     const char *type, c_header_body *body, const void *of);
-/* Writes the scene's declaration for the scene's .c file, and the scene's second name by WH_LINKED_AS(). */
+/* Writes the declaration for the scene's .c file, with WH_LINKED_AS() of core/version.h. The body is only hashed. */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);
-/* The body in floating point; `of` is an image. */
+/* The body for float and double; `of` is an image. */
 c_header_body c_header_of_image;
 void c_header_strings(FILE *out, const image *im);
 void c_header_values(FILE *out, const image *im);

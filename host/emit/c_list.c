@@ -52,8 +52,8 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
  * saves about half of the flash: seven links of a pendulum take 8 instead of 15 KB, ten take 14 instead of 33. */
 enum { INLINED_MOST = 150 };
 
-/* For lists of this length, the compiler should keep the operations' order (WH_LONG_LIST of core/step.h). On the
- * Cortex-M4F, 67 operations then take 1 % fewer instructions, but 2 % more cycles; 131 take 4 % and 2 % less. */
+/* In lists of at least this length, the compiler should keep the operations' order (core/step/unroll.h). On the
+ * Cortex-M4F, a list of 131 operations then takes 2 % fewer cycles, but a list of 67 would take 2 % more. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
@@ -93,7 +93,7 @@ static void write_phase(FILE *out, const op_list *t, int i) {
     fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
     const char *plus = write_turns(out, t, o);
     for (int k = 0; k < t->angles && o->parts != NULL; k++) {
-        if (o->parts[k] != 0.0) { /* a multiple of an angle, with the integers that float needs */
+        if (o->parts[k] != 0.0) { /* WH_FACTOR() takes a real for double, and integers for float */
             uint32_t whole;
             uint64_t part;
             char hex[HEX_SIZE];
@@ -178,7 +178,7 @@ static void write_operation(FILE *out, const op_list *t, int i) {
     } else if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
     } else if (row->kind != OP_IS_CONSTANT) {
-        /* a look-up in an odd table that folds */
+        /* a look-up in an odd table of which only half is stored: the other half has the opposite sign */
         const bool mirrored = row->kind == OP_IS_LOOKUP && t->tables.folds &&
                               t->tables.odd[(int)o->value / t->tables.terms];
         fprintf(out, "    const wh_real x%d = %s", i, mirrored ? "wh_table_back(" : "");
@@ -244,7 +244,7 @@ void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *n
     c_list_body(out, t, angles, "result");
 }
 
-/* Writes a wave's rate times `scale`, summed as in the interpreter. With one angle, its factor is scaled first. */
+/* Writes a wave's rate times `scale`. The order of operations is the same as in the interpreter. */
 static void write_rate(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     int terms = 0;

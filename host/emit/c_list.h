@@ -6,17 +6,17 @@
 
 #include "host/image/op_list.h"
 
-/* === the right-hand side of an operation from its row (host/image/op_list.h) ================== */
+/* === code for one operation, from its row in OP_ROWS (host/image/op_list.h) =================== */
 
 /* The parts of the rows that depend on the language. */
 typedef struct op_style {
     void (*operand)(FILE *out, const op_list *t, int a);
-    /* Writes element `a` of l (linear), r (rate) or u (input), as `what` says. NULL: no row needs it. */
+    /* Writes the text for $l, $r or $u of OP_ROWS; `what` is this letter. NULL if no row has these. */
     void (*leaf)(FILE *out, const void *context, char what, int a);
     const void *context; /* for leaf() */
 } op_style;
 
-/* `form` is the row's text for the language. */
+/* Writes the right-hand side of operation `o` of the list. `form`: the text of its row for the language. */
 void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style);
 
 bool c_list_uses_phase(const op_list *t);
@@ -29,10 +29,10 @@ typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
 /* Writes the statements, with results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
-/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. `linkage` is replaced by "static" if the
- * list is long. WH_INLINE: the core calls the function at one place, so that inlining takes no flash. C_BY_POINTER: the
- * core calls it through a pointer in a constant, which gcc -Og resolves too late for inlining, so the function must not
- * require inlining. */
+/* Writes a wh_accel_fn (if `second`) or a wh_slope_fn; with C_WAVES a wh_turned_accel_fn or a wh_turned_slope_fn.
+ * `linkage`: WH_INLINE if the core calls the function at only one place, because inlining then costs no flash;
+ * C_BY_POINTER if the core calls it through a pointer, because gcc -Og cannot inline such a call. If the list has too
+ * many operations for inlining, `linkage` is ignored, and the function is "static". */
 #define C_BY_POINTER "static inline"
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      const char *linkage);
@@ -40,7 +40,7 @@ void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *n
 /* Writes "cells", the tables of a list, if there are any. */
 void c_list_cells(FILE *out, const op_list *t);
 
-/* Writes "waves", the wh_waves of a list that takes pairs, and their data. */
+/* Writes "waves", a wh_waves, and its functions. The list must satisfy op_list_takes_waves(). */
 void c_list_waves(FILE *out, const op_list *t);
 
 #endif

@@ -264,7 +264,7 @@ static void put_matrix_rows(json *j, const image *im, const char *key, int first
     json_close(j, ']');
 }
 
-/* Writes the word for the matrix, then "phi", "gamma" and "g" of a matrix: a row for each component, angles first. */
+/* Writes the setting "matrix" and, if there is a matrix, its parts: a row for each component, angles first. */
 static void put_matrix(json *j, const image *im) {
     const int states = im->matrix.states;
     json_text(j, "matrix", image_matrix_words[im->settings.matrix]);

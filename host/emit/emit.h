@@ -14,11 +14,11 @@
  * contacts, whole lines that begin with EMIT_OCTAVE_COMMENT, or "". */
 #define EMIT_OCTAVE_COMMENT "% "
 void emit_octave(FILE *out, const image *im, const char *file, const char *contacts);
-/* Write the lines before and after the calculation. show_octave() writes the calculation with the file's names. */
+/* Write the parts of such a file before and after the calculation, which the caller writes. */
 void emit_octave_head(FILE *out, const image *im, const char *file, const char *contacts);
 void emit_octave_end(FILE *out, const image *im);
 
-/* Is text[length] one of the words, which blanks separate? */
+/* Is the text of this length one of the words? Blanks separate the words. */
 bool emit_is_among(const char *words, const char *text, size_t length);
 
 /* Can a scene have that name in C? It must be no keyword, no name of C's library, no predefined macro of a compiler,
@@ -28,9 +28,9 @@ bool emit_c_name_is_free(const char *name);
 /* C++ reserves more words than C. */
 bool emit_c_name_is_free_in_cpp(const char *name);
 
-/* Can a function file have that name? Not a keyword or constant of Octave or Matlab, nor a name in the file. */
+/* Can a generated function for Octave and Matlab have that name? Keywords, constants and functions are not free. */
 bool emit_octave_name_is_free(const char *name);
-/* Can a variable of Octave and Matlab have that name? It may hide constants such as e and I. */
+/* The same for a variable. It may have the name of a constant, such as e and I. */
 bool emit_octave_variable_is_free(const char *name);
 
 /* Writes the scene's header for C and C++: names of components, inputs and outputs, units, and memory. */

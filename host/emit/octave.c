@@ -4,7 +4,7 @@
 #include "emit.h"
 #include "host/emit/c_list.h"
 
-/* The index k of y(k), from 1: values, then rates, and so on. */
+/* Returns the component's index in y, from 1. First in y are the unknowns' values, then their rates, and so on. */
 static int y_number(const image *im, component of) {
     int number = 1;
     for (int i = 0; i < im->count; i++) {

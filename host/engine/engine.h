@@ -13,9 +13,9 @@ typedef struct engine_event {
     bool strikes; /* a stop or a hold gave an impulse */
 } engine_event;
 
-/* Impacts with a restitution outside 0 to 1, which is clamped. All members but `count` are of the first one. */
+/* Impacts whose restitution was outside 0 to 1, and was clamped to it. */
 typedef struct engine_clamped {
-    uint64_t count;
+    uint64_t count; /* number of such impacts; the other members describe the first */
     int contact;    /* the stop */
     double value;   /* the restitution */
     double begin_s; /* begin of the step with the impact, s */
@@ -31,7 +31,7 @@ typedef struct engine_piece {
 
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
-    int digits;       /* a number with this many significant digits is read back exactly */
+    int digits;       /* a number printed with this many significant digits is read back exactly */
     void *(*start)(const image *im); /* the image must outlive the run */
     void (*stop)(void *run);
     wh_status (*step)(void *run);
@@ -43,19 +43,19 @@ typedef struct engine_kind {
     uint64_t (*steps)(const void *run);
     /* The component that diverged, angles first, or -1. */
     int (*fault)(const void *run);
-    /* Events since the start. *overruns: number of steps with events at more than WH_EVENTS_MAX different times. */
+    /* Number of events since the start. *overruns: as in wh_contacts (core/state.h). */
     uint64_t (*events)(const void *run, uint64_t *overruns);
     /* The events of the last step in their order, list[WH_EVENT_LOG]; returns their number. */
     int (*happened)(const void *run, engine_event *list);
-    /* The contacts' modes, mode[contacts]; before the first step those with which it will begin. */
+    /* The contacts' modes, mode[contacts]. Before the first step: the modes with which this step will begin. */
     void (*modes)(const void *run, int *mode);
-    /* Evaluations of the accelerations since the start; *most: the declared bound for one step with contacts. */
+    /* Number of evaluations of the accelerations since the start. *most: bound for one step; 0 without contacts. */
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the residuals); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* The largest |summed round-off| of component i, angles first, since the start: each increment is rounded to whole
-     * units. *span: the component's range without round-off. Both SI. If unit() is NULL, only turn angles are rounded,
-     * in float to 2^-32 turn. Returns 0 in double, and with compensated sums. */
+    /* Each step rounds the increment of a component: in fixed point to unit(); in float, of angles only, to 2^-32 turn.
+     * Returns the largest absolute value that the sum of these round-offs has had for component i, angles first: 0 in
+     * double, and with compensated sums. *span: the component's range without round-off, 0 in double. Both are SI. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
@@ -66,10 +66,10 @@ typedef struct engine_kind {
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
-/* Number of list operations that this process has evaluated; the same on every machine. Other work counts as the
- * operations that would take as long, within a third. */
+/* The work of this process, in list operations. Other work counts as the number of list operations that would take the
+ * same time, within a third. The number is the same on every machine. */
 extern uint64_t engine_operations;
-/* Number of operations of one evaluation of the accelerations, and of the method's and contacts' work for it. */
+/* Work for one evaluation of the accelerations, in list operations. It includes work of the method and contacts. */
 uint64_t engine_evaluation(const image *im);
 
 extern const engine_kind engine_float;
@@ -85,8 +85,8 @@ void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const 
                    const double *rate, const double *input, double *result);
 /* The value of this operation of the list in the last evaluator_run(). */
 double evaluator_value(const evaluator *ev, int operation);
-/* Bounds on the round-off of the last evaluator_run(), with its angles: error[results], in unit
- * round-offs (rounding.h). */
+/* Computes bounds on the round-off of the results of the last evaluator_run(): error[results], in unit round-offs.
+ * `angle_rad` must be as in that run; `least` is a member of rounding_values (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
 /* A list of an image, evaluated in double at any state. The inputs keep their start values. */
@@ -94,11 +94,11 @@ typedef struct state_list {
     const image *image;
     evaluator *evaluator;
     double *input;  /* [inputs] */
-    double *result; /* [results of the list] of the last state_list_at() */
+    double *result; /* [results of the list], from the last state_list_at() */
 } state_list;
 state_list state_list_open(const image *im, image_role role);
 void state_list_close(const state_list *l);
-/* The results at a state as from engine_kind's state(). */
+/* Evaluates the list at a state, given as engine_kind's state() returns it. Returns l->result. */
 const double *state_list_at(const state_list *l, double time_s, const double *angle_rad,
                             const double *real);
 
