@@ -206,20 +206,6 @@ static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     f->pending_count = kept;
 }
 
-/* Applies the fault to the readings at time_s if it is active. Adds its delayed readings that are due. */
-static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
-    const fault_place at = fault_rows[f->kind].place;
-    if (f->active && at == FAULT_EDGES) {
-        break_edges(plan, f, time_s, r);
-    } else if (f->active && at == FAULT_SAMPLES) {
-        break_samples(plan, f, time_s, r);
-    } else if (f->active && f->kind == FAULT_READINGS_LOST && fault_draw(plan, f) < f->size) {
-        r->edges = 0;
-        r->samples = 0;
-    }
-    tell_pending(f, time_s, r);
-}
-
 /* === when faults begin and end ================================================================ */
 
 static const struct {
@@ -341,48 +327,32 @@ static void change(fault_plan *plan, fault_case *f, double time_s, bool begins) 
 
 /* --- the processor --------------------------------------------------------------------------------------------*/
 
-static double due_ticks(const fault_plan *plan, const fault_case *f) {
-    return (f->begin_s + f->after_s) * plan->ticks_per_s;
-}
-
-/* After a reset: drops delayed readings, zeroes outputs, and marks the fault that caused the reset. */
-static void see_reset(fault_plan *plan) {
-    const double then_ticks = plan->plant->reset.last_ticks;
-    plan->last = (wh_orders){.outputs = plan->last.outputs};
-    for (unsigned i = 0; i < plan->count; i++) {
-        fault_case *f = &plan->fault[i];
-        f->pending_count = 0;
-        if (f->kind == FAULT_RESET && f->reached && !f->happened &&
-            due_ticks(plan, f) <= then_ticks) {
-            f->happened = true;
-            f->begin_s = then_ticks / plan->ticks_per_s;
-        }
-    }
-}
-
-/* The plant must know the next reset in advance, because resets happen between messages. */
-static void order_reset(fault_plan *plan, const fault_case *f) {
-    plant_resets *r = &plan->plant->reset;
-    if (f->kind == FAULT_RESET && f->reached && !f->happened && due_ticks(plan, f) < r->at_ticks) {
-        r->at_ticks = due_ticks(plan, f);
-        r->takes_ticks = f->size * plan->ticks_per_s;
-    }
-    if (f->kind == FAULT_WATCHDOG_RESETS && f->active) {
-        r->by_watchdog = true;
-        r->watchdog_ticks = f->size * plan->ticks_per_s;
-    }
-}
-
+/* After a reset: drops delayed readings, zeroes outputs, and marks the fault that caused the reset. Then tells the plant
+ * the next reset in advance, because resets happen between messages. */
 static void look_for_resets(fault_plan *plan) {
     plant_resets *r = &plan->plant->reset;
-    if (r->count != plan->resets) {
+    const bool was_reset = r->count != plan->resets;
+    if (was_reset) {
         plan->resets = r->count;
-        see_reset(plan);
+        plan->last = (wh_orders){.outputs = plan->last.outputs};
     }
     r->at_ticks = (double)INFINITY;
     r->by_watchdog = false;
     for (unsigned i = 0; i < plan->count; i++) {
-        order_reset(plan, &plan->fault[i]);
+        fault_case *f = &plan->fault[i];
+        const double due_ticks = (f->begin_s + f->after_s) * plan->ticks_per_s;
+        const bool waits = f->kind == FAULT_RESET && f->reached && !f->happened;
+        f->pending_count = was_reset ? 0 : f->pending_count;
+        if (waits && was_reset && due_ticks <= r->last_ticks) {
+            f->happened = true;
+            f->begin_s = r->last_ticks / plan->ticks_per_s;
+        } else if (waits && due_ticks < r->at_ticks) {
+            r->at_ticks = due_ticks;
+            r->takes_ticks = f->size * plan->ticks_per_s;
+        } else if (f->kind == FAULT_WATCHDOG_RESETS && f->active) {
+            r->by_watchdog = true;
+            r->watchdog_ticks = f->size * plan->ticks_per_s;
+        }
     }
 }
 
@@ -393,7 +363,7 @@ static void look_at_time(fault_plan *plan, double time_s) {
         if (fault_rows[f->kind].place == FAULT_PARAMETER) {
             f->happened = true;
         } else if (f->kind == FAULT_RESET) {
-            continue; /* see order_reset() */
+            continue; /* see look_for_resets() */
         } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
             change(plan, f, time_s, true);
         } else if (f->active && time_s >= f->begin_s + f->duration_s) {
@@ -489,9 +459,16 @@ static void tap_readings(void *of, double time_s, wh_readings *readings) {
     look_at_time(plan, time_s);
     for (unsigned i = 0; i < plan->count; i++) {
         fault_case *f = &plan->fault[i];
-        if (f->active || f->pending_count > 0) {
-            fault_readings(plan, f, time_s, readings);
+        const fault_place at = fault_rows[f->kind].place;
+        if (f->active && at == FAULT_EDGES) {
+            break_edges(plan, f, time_s, readings);
+        } else if (f->active && at == FAULT_SAMPLES) {
+            break_samples(plan, f, time_s, readings);
+        } else if (f->active && f->kind == FAULT_READINGS_LOST && fault_draw(plan, f) < f->size) {
+            readings->edges = 0;
+            readings->samples = 0;
         }
+        tell_pending(f, time_s, readings);
     }
 }
 

@@ -191,9 +191,10 @@ static void say_no_hello(talk *t) {
     }
 }
 
+/* words[GUEST_LINE_BYTES] gets the texts of *hello. */
 static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh_signal *signal,
-                             uint8_t *words, unsigned room) {
-    if (frame->kind != WH_FRAME_HELLO || frame->length > room) {
+                             uint8_t *words) {
+    if (frame->kind != WH_FRAME_HELLO || frame->length > GUEST_LINE_BYTES) {
         return fail(t, "no hello");
     }
     memcpy(words, frame->payload, frame->length);
@@ -204,7 +205,7 @@ static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh
     return true;
 }
 
-static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *words, unsigned room) {
+static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *words) {
     wh_frame frame;
     if (!hear_frame(t, &frame)) {
         if (t->report->end == LOCKSTEP_DONE) { /* ended before its hello */
@@ -212,7 +213,7 @@ static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *wor
         }
         return false;
     }
-    return take_hello_frame(t, &frame, hello, signal, words, room);
+    return take_hello_frame(t, &frame, hello, signal, words);
 }
 
 /* On a serial line, the firmware sends its hello until the first message comes. Other frames are of an earlier run. */
@@ -227,7 +228,7 @@ static bool ask_for_hello(talk *t) {
             heard = guest_receive(&t->guest, &frame);
             if (heard == GUEST_FRAME && frame.kind == WH_FRAME_HELLO) {
                 t->guest.request.patience_s = patience_s;
-                return take_hello_frame(t, &frame, &t->hello, t->signal, t->words, sizeof t->words);
+                return take_hello_frame(t, &frame, &t->hello, t->signal, t->words);
             }
         }
     }
@@ -241,26 +242,6 @@ static bool ask_for_hello(talk *t) {
             patience_s);
     }
     return false;
-}
-
-static bool hear_hello(talk *t) {
-    if (t->request->guest.by_line) {
-        if (!ask_for_hello(t)) {
-            return false;
-        }
-    } else if (!take_hello(t, &t->hello, t->signal, t->words, sizeof t->words)) {
-        return false;
-    }
-    t->report->notes = hello_channels(&t->hello, WH_SIGNAL_NOTE);
-    t->outputs = hello_channels(&t->hello, WH_SIGNAL_OUTPUT) + t->report->notes;
-    for (unsigned i = 0; i < t->report->notes; i++) {
-        const wh_signal *s = hello_signal(&t->hello, WH_SIGNAL_NOTE, i);
-        snprintf(t->report->note[i].name, sizeof t->report->note[i].name, "%s", s->name);
-        snprintf(t->report->note[i].unit, sizeof t->report->note[i].unit, "%s", s->unit);
-    }
-    snprintf(t->report->program, sizeof t->report->program, "%s", t->hello.program);
-    snprintf(t->report->board, sizeof t->report->board, "%s", t->hello.board);
-    return true;
 }
 
 bool talk_is_same_hello(const wh_hello *one, const wh_hello *other) {
@@ -282,10 +263,22 @@ bool talk_start(talk *t, const lockstep_request *request, lockstep_report *repor
     *t = (talk){.request = request, .report = report, .tape = onto};
     report->hash = WH_HASH_START;
     if (!guest_start(&t->guest, &request->guest)) {
-        report->end = LOCKSTEP_BAD;
+        return ends(report, LOCKSTEP_BAD);
+    }
+    if (!(request->guest.by_line ? ask_for_hello(t)
+                                 : take_hello(t, &t->hello, t->signal, t->words))) {
         return false;
     }
-    return hear_hello(t);
+    report->notes = hello_channels(&t->hello, WH_SIGNAL_NOTE);
+    t->outputs = hello_channels(&t->hello, WH_SIGNAL_OUTPUT) + report->notes;
+    for (unsigned i = 0; i < report->notes; i++) {
+        const wh_signal *s = hello_signal(&t->hello, WH_SIGNAL_NOTE, i);
+        snprintf(report->note[i].name, sizeof report->note[i].name, "%s", s->name);
+        snprintf(report->note[i].unit, sizeof report->note[i].unit, "%s", s->unit);
+    }
+    snprintf(report->program, sizeof report->program, "%s", t->hello.program);
+    snprintf(report->board, sizeof report->board, "%s", t->hello.board);
+    return true;
 }
 
 bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
@@ -305,7 +298,7 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
         return ends(t->report, LOCKSTEP_FAILED);
     }
     t->sequence = 0;
-    if (!take_hello(t, &hello, signal, words, sizeof words)) {
+    if (!take_hello(t, &hello, signal, words)) {
         return false;
     }
     if (!talk_is_same_hello(&hello, &t->hello)) {
@@ -320,9 +313,8 @@ double talk_instructions_per_count(const wh_hello *hello) {
 }
 
 void talk_end(talk *t) {
-    const bool failed_alone = t->report->end == LOCKSTEP_DONE;
     t->report->status = guest_end(&t->guest);
-    if (!failed_alone) {
+    if (t->report->end != LOCKSTEP_DONE) {
         return;
     }
     if (t->request->guest.by_line) {
@@ -401,15 +393,6 @@ static void tell_taps_readings(const loop *l, wh_readings *readings) {
     }
 }
 
-static void let_taps_watch(const loop *l) {
-    const lockstep_request *request = l->talk.request;
-    for (int i = 0; i < request->tap_count; i++) {
-        if (request->taps[i].watch != NULL) {
-            request->taps[i].watch(request->taps[i].of, plant_s(l), &l->plant);
-        }
-    }
-}
-
 /* The next readings come at the requested time, or at the end of computing if that is later. */
 static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     const double now = plant_now(&l->plant);
@@ -439,7 +422,12 @@ static bool advance(loop *l, double until_ticks) {
                 plant_s(l), wh_status_text(l->plant.status));
             return ends(l->report, LOCKSTEP_FAILED);
         }
-        let_taps_watch(l);
+        for (int i = 0; i < l->talk.request->tap_count; i++) {
+            const tap *t = &l->talk.request->taps[i];
+            if (t->watch != NULL) {
+                t->watch(t->of, plant_s(l), &l->plant);
+            }
+        }
     }
     return true;
 }
@@ -556,14 +544,13 @@ static void run_bound(loop *l, const image *im) {
 
 static bool has_places(const loop *l, unsigned places) {
     const unsigned edges = hello_channels(&l->talk.hello, WH_SIGNAL_EDGE);
-    const bool has = places <= edges;
-    if (!has) {
+    if (places > edges) {
         fprintf(stderr,
                 "whirl pil: error: --place has %u values, but the firmware has %u edges\n"
                 "hint: give one value for each edge, in the firmware's sequence\n",
                 places, edges);
     }
-    return has;
+    return places <= edges;
 }
 
 void lockstep_run(const lockstep_request *request, const image *im, lockstep_report *report) {

@@ -27,35 +27,28 @@ static bool is_same_unit(const char *one, const char *other) {
 
 static bool is_output(const bound *b) { return b->signal.kind == WH_SIGNAL_OUTPUT; }
 
-/* "theta'" is the rate of theta. */
-static bool is_component(const image *im, int i, const char *name) {
-    const component c = image_component(im, i);
-    const image_unknown *u = &im->unknown[c.unknown];
-    const size_t length = strlen(u->name);
-    if (strncmp(name, u->name, length) != 0 || strlen(name) != length + (size_t)c.primes) {
-        return false;
-    }
-    return strspn(name + length, "'") == (size_t)c.primes;
-}
-
 const char *bind_read(bound *b, const image *im, const char *name) {
     for (int i = 0; i < im->own_outputs; i++) {
         if (strcmp(im->output[i].name, name) == 0) {
-            b->place = BOUND_OUTPUT;
             b->index = i;
+            b->of_output = true;
             b->rate = -1;
             b->turns = false;
             return im->output[i].unit.si;
         }
     }
     for (int i = 0; i < im->angles + im->reals; i++) {
-        if (is_component(im, i, name)) {
-            const component c = image_component(im, i);
-            b->place = BOUND_COMPONENT;
+        const component c = image_component(im, i);
+        const image_unknown *u = &im->unknown[c.unknown];
+        const size_t length = strlen(u->name);
+        const size_t primes = (size_t)c.primes; /* theta' is the rate of theta */
+        if (strncmp(name, u->name, length) == 0 && strlen(name) == length + primes &&
+            strspn(name + length, "'") == primes) {
             b->index = i;
+            b->of_output = false;
             b->rate = image_find_component(im, c.unknown, c.primes + 1);
-            b->turns = c.primes == 0 && im->unknown[c.unknown].is_angle;
-            return im->unknown[c.unknown].unit[c.primes].si;
+            b->turns = c.primes == 0 && u->is_angle;
+            return u->unit[c.primes].si;
         }
     }
     return NULL;
@@ -67,12 +60,6 @@ int bind_input(const image *im, const char *name) {
         i--;
     }
     return i;
-}
-
-static const char *find_set(bound *b, const image *im, const char *name) {
-    b->place = BOUND_INPUT;
-    b->index = bind_input(im, name);
-    return b->index >= 0 ? im->input[b->index].unit.si : NULL;
 }
 
 /* `name`: the scene's name for the signal */
@@ -122,11 +109,15 @@ static bool has_good_range(const bound *b) {
 
 static bool bind_one(bound *b, const image *im) {
     if (b->signal.kind == WH_SIGNAL_NOTE) {
-        b->place = BOUND_NOWHERE;
         return true;
     }
     const char *name = b->renamed[0] != '\0' ? b->renamed : b->signal.name;
-    const char *unit = is_output(b) ? find_set(b, im, name) : bind_read(b, im, name);
+    const char *unit = NULL;
+    if (!is_output(b)) {
+        unit = bind_read(b, im, name);
+    } else if ((b->index = bind_input(im, name)) >= 0) {
+        unit = im->input[b->index].unit.si;
+    }
     if (unit == NULL) {
         say_unknown(b, im, name);
         return false;
@@ -240,8 +231,6 @@ bool recorded_close(recorded *r) {
 /* The end of a step has reached an instant if it is at most this part of a tick earlier (round-off). */
 #define NEARLY 1e-6
 
-static int components(const plant *p) { return p->image->angles + p->image->reals; }
-
 bool plant_read_places(const char *text, plant_request *to) {
     unsigned count = 0;
     for (const char *at = text; at != NULL;) {
@@ -290,22 +279,19 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
                  .reset = {.at_ticks = (double)INFINITY}};
     p->request.jitter_s *= (double)hello->ticks_per_s;
     p->request.delay_s *= (double)hello->ticks_per_s;
-    p->before = alloc(components(p), sizeof *p->before);
-    p->after = alloc(components(p), sizeof *p->after);
+    p->before = alloc(im->angles + im->reals, sizeof *p->before);
+    p->after = alloc(im->angles + im->reals, sizeof *p->after);
     p->output = alloc(im->outputs, sizeof *p->output);
     p->output_after = alloc(im->outputs, sizeof *p->output_after);
     for (unsigned i = 0; i < b->count; i++) {
         const bound *one = &b->bound[i];
-        p->sees_outputs =
-            p->sees_outputs || (one->signal.kind == WH_SIGNAL_EDGE && one->place == BOUND_OUTPUT);
-        if (one->signal.kind == WH_SIGNAL_EDGE && one->turns) {
-            p->request.place[one->channel] *= TURN_RAD / TURN_DEG;
-        }
-        if (one->signal.kind == WH_SIGNAL_SAMPLE) {
+        if (one->signal.kind == WH_SIGNAL_EDGE) {
+            p->sees_outputs = p->sees_outputs || one->of_output;
+            p->request.place[one->channel] *= one->turns ? TURN_RAD / TURN_DEG : 1.0;
+        } else if (one->signal.kind == WH_SIGNAL_SAMPLE) {
             p->period[one->channel] = one->signal.period_ticks;
             p->due[one->channel] = one->signal.period_ticks;
-        }
-        if (one->signal.kind == WH_SIGNAL_OUTPUT) {
+        } else if (is_output(one)) {
             engine_double.set_input(p->run, one->index, 0.0);
         }
     }
@@ -342,7 +328,7 @@ uint32_t plant_ticks(const plant *p) { return shown(p, plant_now(p)); }
 static void set_inputs(plant *p) {
     for (unsigned i = 0; i < p->binding->count; i++) {
         const bound *b = &p->binding->bound[i];
-        if (b->signal.kind == WH_SIGNAL_OUTPUT) {
+        if (is_output(b)) {
             const double value = (double)p->orders.output[b->channel];
             const double low = (double)b->signal.low;
             const double high = (double)b->signal.high;
@@ -435,16 +421,11 @@ typedef struct span_of_step {
 } span_of_step;
 
 static span_of_step span_of(const plant *p, const bound *b) {
-    if (b->place == BOUND_OUTPUT) {
-        const double from = p->output[b->index];
-        const double to = p->output_after[b->index];
-        return (span_of_step){from, to, to - from, to - from};
-    }
-    span_of_step s = {p->before[b->index], p->after[b->index], 0.0, 0.0};
+    const double from = (b->of_output ? p->output : p->before)[b->index];
+    const double to = (b->of_output ? p->output_after : p->after)[b->index];
     const double h = p->image->step_s;
-    s.slope_from = b->rate >= 0 ? p->before[b->rate] * h : s.to - s.from;
-    s.slope_to = b->rate >= 0 ? p->after[b->rate] * h : s.to - s.from;
-    return s;
+    return (span_of_step){from, to, b->rate >= 0 ? p->before[b->rate] * h : to - from,
+                          b->rate >= 0 ? p->after[b->rate] * h : to - from};
 }
 
 static double at_part(const span_of_step *s, double part) {
@@ -517,20 +498,20 @@ static void take_samples(plant *p) {
     for (unsigned i = 0; i < p->binding->count; i++) {
         const bound *b = &p->binding->bound[i];
         if (b->signal.kind != WH_SIGNAL_SAMPLE ||
-            plant_now(p) + NEARLY < (double)p->due[b->channel]) {
+            !plant_has_reached(p, (double)p->due[b->channel])) {
             continue;
         }
-        if (b->place == BOUND_OUTPUT && !observed) {
+        if (b->of_output && !observed) {
             engine_double.outputs(p->run, p->output_after);
             observed = true;
         }
-        const double *of = b->place == BOUND_OUTPUT ? p->output_after : p->after;
+        const double *of = b->of_output ? p->output_after : p->after;
         plant_event e = {.channel = (uint8_t)b->channel};
         e.raw = hello_count(&b->signal, of[b->index], &e.status);
         e.at_ticks = plant_now(p) + p->request.delay_s;
         e.ticks = shown(p, e.at_ticks);
         enqueue(&p->samples, e);
-        while ((double)p->due[b->channel] <= plant_now(p) + NEARLY) {
+        while (plant_has_reached(p, (double)p->due[b->channel])) {
             p->due[b->channel] += p->period[b->channel];
         }
     }
@@ -574,7 +555,7 @@ bool plant_advance(plant *p, double until_ticks) {
 /* *there: the number of readings that are due. Returns how many are delivered: at most `most`; the others are lost. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
-    while (*there < q->count && q->event[*there].at_ticks <= plant_now(p) + NEARLY) {
+    while (*there < q->count && plant_has_reached(p, q->event[*there].at_ticks)) {
         ++*there;
     }
     p->lost += *there > most ? *there - most : 0;

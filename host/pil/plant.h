@@ -12,18 +12,16 @@
 
 /* === assignment of a firmware's signals to a scene's quantities, by name and unit ============= */
 
-typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT, BOUND_NOWHERE } bound_place;
-
 enum { BOUND_NAME = 80 };
 
 typedef struct bound {
     wh_signal signal;         /* its texts are in the hello */
     char renamed[BOUND_NAME]; /* the signal's name in the scene; "": the same */
     unsigned channel;
-    bound_place place;
-    int index;  /* of the input, output or state component (angles first) */
-    int rate;   /* component of the rate, or -1 */
-    bool turns; /* an angle: the reading repeats every turn */
+    int index;      /* of the input, output or state component (angles first) */
+    bool of_output; /* reads an output of the scene, not a component */
+    int rate;       /* component of the rate, or -1 */
+    bool turns;     /* an angle: the reading repeats every turn */
 } bound;
 
 typedef struct binding {
@@ -40,7 +38,7 @@ int32_t hello_count(const wh_signal *s, double value, uint8_t *status);
 /* The index of the input, or -1. */
 int bind_input(const image *im, const char *name);
 
-/* Binds an output, coordinate or rate: sets place, index, rate and turns. Returns its unit, or NULL. */
+/* Binds an output, coordinate or rate: sets index, of_output, rate and turns. Returns its unit, or NULL. */
 const char *bind_read(bound *b, const image *im, const char *name);
 
 /* `renames`: words NAME=OTHER between commas, which bind the firmware's NAME to the scene's OTHER. False: reported. */

@@ -193,15 +193,13 @@ typedef struct rows {
     float value[WH_SIGNALS_MAX]; /* by channel, notes after outputs */
 } rows;
 
-static void print_time(const rows *r, int64_t ticks) {
-    fprintf(r->out, "%.*f,", r->decimals, (double)ticks / (double)r->tape->hello.ticks_per_s);
-}
-
 /* A time stamp has 32 bits: its true time is the nearest one to the message's time. */
 static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
-    print_time(r, (int64_t)r->heard + (int32_t)(stamp - r->ticks));
-    print_time(r, (int64_t)r->heard);
-    fprintf(r->out, "%s,", kind);
+    const double per_s = (double)r->tape->hello.ticks_per_s;
+    const int64_t heard = (int64_t)r->heard;
+    const int64_t then = heard + (int32_t)(stamp - r->ticks);
+    fprintf(r->out, "%.*f,%.*f,%s,", r->decimals, (double)then / per_s, r->decimals,
+            (double)heard / per_s, kind);
 }
 
 /* Texts on a tape are the firmware's: characters that would break a row become '_'. */
@@ -216,12 +214,6 @@ static void print_word(FILE *out, const char *word) {
 static void print_named(const rows *r, const wh_signal *s, unsigned channel) {
     fprintf(r->out, "%u,", channel + 1);
     print_word(r->out, s->name);
-}
-
-static void print_edge(const rows *r, const wh_edge *e) {
-    begin_row(r, e->ticks, "edge");
-    print_named(r, hello_signal(&r->tape->hello, WH_SIGNAL_EDGE, e->channel), e->channel);
-    fputs(",,\n", r->out);
 }
 
 static void print_sample(const rows *r, const wh_sample *e) {
@@ -246,7 +238,10 @@ static void print_readings(const rows *r, const wh_readings *readings) {
             (sample == readings->samples ||
              (int32_t)(readings->edge[edge].ticks - readings->sample[sample].ticks) <= 0);
         if (is_edge) {
-            print_edge(r, &readings->edge[edge++]);
+            const wh_edge *e = &readings->edge[edge++];
+            begin_row(r, e->ticks, "edge");
+            print_named(r, hello_signal(&r->tape->hello, WH_SIGNAL_EDGE, e->channel), e->channel);
+            fputs(",,\n", r->out);
         } else {
             print_sample(r, &readings->sample[sample++]);
         }
@@ -273,15 +268,6 @@ static void print_orders(rows *r, const wh_orders *orders) {
     r->has_rows = true;
 }
 
-/* The firmware's data are lost, and its timer restarts. */
-static void print_reset(rows *r, const wh_reset *reset) {
-    begin_row(r, r->ticks, "reset");
-    fprintf(r->out, ",,,,%s\n", reset->cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
-    r->ticks = r->tape->hello.start_ticks;
-    r->cut = false;
-    r->has_rows = false;
-}
-
 static void print_rows(taped *t, FILE *out) {
     rows r = {.tape = t, .out = out, .ticks = t->hello.start_ticks};
     for (uint32_t per_s = 1; per_s < t->hello.ticks_per_s && r.decimals < 9; per_s *= 10U) {
@@ -292,8 +278,12 @@ static void print_rows(taped *t, FILE *out) {
     while (ferror(out) == 0 && taped_next(t, &turn)) {
         r.heard += turn.ticks - r.ticks;
         r.ticks = turn.ticks;
-        if (turn.is_reset) {
-            print_reset(&r, &turn.reset);
+        if (turn.is_reset) { /* the firmware's data are lost, and its timer restarts */
+            begin_row(&r, r.ticks, "reset");
+            fprintf(out, ",,,,%s\n", turn.reset.cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
+            r.ticks = t->hello.start_ticks;
+            r.cut = false;
+            r.has_rows = false;
             continue;
         }
         print_readings(&r, &turn.readings);
