@@ -206,13 +206,6 @@ static void say_range(const char *name, bool known, const range *r) {
     end_line();
 }
 
-static void say_clock(void) {
-    static const char *const word[] = {[HAL_CLOCK_CRYSTAL] = "crystal",
-                                       [HAL_CLOCK_FALLBACK] = "fallback",
-                                       [HAL_CLOCK_PLAYED] = WH_LIGHT_NONE};
-    say("clock", word[hal_clock_source_now()]);
-}
-
 static void say_load(void) {
     line_begin("load");
     if (rest.samples > 0) {
@@ -241,12 +234,15 @@ static void say_load(void) {
 }
 
 static void say_rest(void) {
+    static const char *const clock[] = {[HAL_CLOCK_CRYSTAL] = "crystal",
+                                        [HAL_CLOCK_FALLBACK] = "fallback",
+                                        [HAL_CLOCK_PLAYED] = WH_LIGHT_NONE};
     const bool started = rest.why_not == NULL;
     const bool keeps_time = started && hal_clock_source_now() != HAL_CLOCK_PLAYED;
     char answer[200];
     wh_text text;
     wh_text_start(&text, answer, sizeof answer);
-    say_clock();
+    say("clock", clock[hal_clock_source_now()]);
     say_range("period_us", keeps_time, &rest.period_ticks);
     say_range("period_cycles", keeps_time && counts_cycles, &rest.period_cycles);
     say_load();

@@ -165,22 +165,16 @@ typedef enum operator_step {
     STOP_SILENT /* the stop input has no reading */
 } operator_step;
 
-/* Evaluates the stop input. Without a reading at the time of `arm`, the operator ends with STOP_SILENT. */
-static void look_at_stop(operator_step *at, bool rests) {
-    if (!hal_stop_pressed()) {
-        return;
-    }
-    if (hal_stop_heard()) {
-        *at = WAS_STOPPED;
-    } else if (*at == HAS_ARMED || *at == HAS_STARTED || (*at == WAITS_FOR_REST && rests)) {
-        *at = STOP_SILENT;
-    }
-}
-
 /* Does one step of the operator. Returns true after the last step. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
-    look_at_stop(at, rests);
+    const bool stop = hal_stop_pressed();
+    if (stop && hal_stop_heard()) {
+        *at = WAS_STOPPED;
+    } else if (stop &&
+               (*at == HAS_ARMED || *at == HAS_STARTED || (*at == WAITS_FOR_REST && rests))) {
+        *at = STOP_SILENT; /* no reading at the time of `arm` */
+    }
     if (rig.state == WH_RIG_TRIPPED) {
         return rig.rested;
     }

@@ -135,12 +135,6 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
-static bool is_slow(const wh_swing *swing) {
-    const wh_real gravity = swing->x[WH_FREE_GRAVITY];
-    const wh_real wide = WH_ABS(swing->way.rate_radps) / WH_SQRT(gravity);
-    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[WH_FREE_FRICTION];
-}
-
 #define FAR_RAD WH_R(0.5)
 
 /* Adds the pulse that the integration has reached. Returns false if the integration cannot go on in its direction. */
@@ -168,7 +162,12 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     wh_normal_add(&swing->normal, by, off, weight);
     swing->fits++;
     swing->fits_of[sensor]++;
-    return !(swing->at > swing->first && sensor == 0 && is_slow(swing));
+    if (swing->at <= swing->first || sensor != 0) {
+        return true;
+    }
+    const wh_real gravity = swing->x[WH_FREE_GRAVITY];
+    const wh_real wide = WH_ABS(way->rate_radps) / WH_SQRT(gravity);
+    return !(wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[WH_FREE_FRICTION]);
 }
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {

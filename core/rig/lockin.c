@@ -98,17 +98,6 @@ static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     }
 }
 
-static void count_equal(wh_lockin *lockin, wh_real force_N) {
-    if (force_N < lockin->newest_N || force_N > lockin->newest_N) {
-        lockin->equal = 0;
-    } else if (lockin->equal < FROZEN_SAMPLES) {
-        lockin->equal++;
-    }
-    if (lockin->equal > lockin->most_equal) {
-        lockin->most_equal = lockin->equal;
-    }
-}
-
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     if (load->status != WH_LOAD_OK ||
         (lockin->any && (int32_t)(load->ticks - lockin->newest_ticks) <= 0)) {
@@ -116,7 +105,14 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
         return;
     }
     if (lockin->any) {
-        count_equal(lockin, load->force_N);
+        if (load->force_N < lockin->newest_N || load->force_N > lockin->newest_N) {
+            lockin->equal = 0;
+        } else if (lockin->equal < FROZEN_SAMPLES) {
+            lockin->equal++;
+        }
+        if (lockin->equal > lockin->most_equal) {
+            lockin->most_equal = lockin->equal;
+        }
     }
     lockin->any = true;
     lockin->newest_ticks = load->ticks;

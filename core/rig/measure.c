@@ -59,17 +59,6 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
-static void repeats_piece(wh_measure *measure) {
-    wh_merge *merge = &measure->merge;
-    const unsigned piece = measure->due - MERGE_PIECES;
-    if (measure->ends) {
-        wh_merge_harmonic(merge, WH_REPEATS_FIRST - 1U + piece);
-    } else if (measure->lockin.turn.fault == WH_TURN_OK) {
-        wh_repeats_merge(&merge->repeats, &measure->lockin.repeats, measure->lockin.turn.samples);
-    }
-    measure->due--;
-}
-
 /* The pieces before this one compute the means, the others the scatter and half-widths. Unless pieces must be small,
  * each of these two groups takes one control step. */
 #define SCATTER 3U
@@ -89,19 +78,23 @@ static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
 }
 
 static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *measure) {
+    wh_merge *merge = &measure->merge;
     wh_measured *force = &measure->result.force;
     const wh_turn_angle *angle = &measure->lockin.angle;
-    if (measure->due > MERGE_PIECES) {
-        repeats_piece(measure);
-    } else if (measure->due > 2U) {
+    if (measure->due > 2U && measure->due <= MERGE_PIECES) {
         mean_pieces(config, measure);
-    } else if (measure->due == 2U) {
-        wh_merge_compare(&config->rotor, &measure->merge, angle, force);
-        measure->due--;
-    } else {
-        wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
-        measure->due--;
+        return;
     }
+    if (measure->due <= 1U) {
+        wh_merge_judge(&config->result, &config->rotor, merge, angle, force);
+    } else if (measure->due == 2U) {
+        wh_merge_compare(&config->rotor, merge, angle, force);
+    } else if (measure->ends) {
+        wh_merge_harmonic(merge, WH_REPEATS_FIRST - 1U + measure->due - MERGE_PIECES);
+    } else if (measure->lockin.turn.fault == WH_TURN_OK) {
+        wh_repeats_merge(&merge->repeats, &measure->lockin.repeats, measure->lockin.turn.samples);
+    }
+    measure->due--;
 }
 
 static WH_CALLED void add_turn(const wh_measure_config *config, wh_measure *measure) {

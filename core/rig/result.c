@@ -177,23 +177,9 @@ WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_
     }
 }
 
-WH_INLINE wh_real size2_of(const wh_merge *merge) {
-    return merge->in_phase_N * merge->in_phase_N + merge->quadrature_N * merge->quadrature_N;
-}
-
-WH_INLINE bool has_halves(const wh_merge *merge, wh_real size2) {
-    return merge->turns >= 2U && size2 > WH_R(0.0);
-}
-
 static wh_real t2_of(const wh_merge *merge) {
     const wh_real student = wh_student(merge->turns - 1U);
     return student * student;
-}
-
-WH_INLINE void jitter_of_pulses(const wh_merge *merge, wh_measured *measured) {
-    if (merge->jitters > 0) {
-        measured->jitter_s = WH_SQRT(merge->jitter_s2 / (WH_R(6.0) * (wh_real)merge->jitters));
-    }
 }
 
 /* Stores the squared scatter temporarily in the half-widths: along the mean force vector, and across it, N^2. */
@@ -270,11 +256,12 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
                         &measured->amplitude_N, &measured->phase_rad);
         return;
     }
-    const wh_real size2 = size2_of(merge);
-    if (piece == 3U) {
-        jitter_of_pulses(merge, measured);
+    const wh_real size2 = square_of(merge->in_phase_N) + square_of(merge->quadrature_N);
+    if (piece == 3U && merge->jitters > 0) {
+        measured->jitter_s = WH_SQRT(merge->jitter_s2 / (WH_R(6.0) * (wh_real)merge->jitters));
     }
-    if (!has_halves(merge, size2)) {
+    const bool has_halves = merge->turns >= 2U && size2 > WH_R(0.0);
+    if (!has_halves) {
         return;
     }
     if (piece == 3U) {

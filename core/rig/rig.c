@@ -134,11 +134,6 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
  * pulses above the new bound, so the start counts as longer by the time of two pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
-static bool starts(const wh_rig *rig, uint32_t now_ticks) {
-    return rig->run.phase == WH_PHASE_SPIN_UP ||
-           !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
-}
-
 /* Returns the guard's trip, or its likely cause if known. To be called in the step that trips. */
 static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_trip trip = rig->guard.trip;
@@ -150,7 +145,10 @@ static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t
     if (order_is_wrong(rig, now_ticks)) {
         return WH_TRIP_ORDER;
     }
-    return trip == WH_TRIP_OVERSPEED && starts(rig, now_ticks) &&
+    const bool starts =
+        rig->run.phase == WH_PHASE_SPIN_UP ||
+        !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
+    return trip == WH_TRIP_OVERSPEED && starts &&
                    !(rig->pulses.speed.turn_radps > config->guard.limit_radps)
                ? WH_TRIP_FASTER
                : trip;
@@ -441,13 +439,9 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     }
 }
 
-/* A pulse that decides about a suspect takes as long as two pulses, so the observer's work waits for the next step. */
-static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
-    return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
-}
-
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (postpones(rig, now_ticks)) {
+    /* A pulse that decides about a suspect takes as long as two pulses: the observer waits for the next step. */
+    if (rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks) {
         return;
     }
     const uint32_t before_ticks = rig->observer.ticks;
@@ -565,14 +559,6 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->loads = 0;
 }
 
-/* Counts the result's age in seconds, because the timer wraps. */
-static void age(wh_rig *rig, uint32_t now_ticks) {
-    if (now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
-        rig->result_ticks += WH_RIG_TICKS_PER_S;
-        rig->result_s++;
-    }
-}
-
 /* With the motor off after a run: follows the free swing of the rotor, or evaluates it if the rotor is at rest. */
 static void swing(const wh_rig_config *config, wh_rig *rig) {
     const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
@@ -626,7 +612,10 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     }
     measure(config, rig, inputs->now_ticks);
     if (!wh_run_drives(&rig->run)) {
-        age(rig, inputs->now_ticks);
+        if (inputs->now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
+            rig->result_ticks += WH_RIG_TICKS_PER_S; /* ages in seconds, because the timer wraps */
+            rig->result_s++;
+        }
         if (WH_RIG_SWINGS) {
             swing(config, rig);
         }
@@ -686,17 +675,14 @@ void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes) {
     wh_bytes_put_float(&out, (float)record->supply_V);
 }
 
-static bool is_trip(uint32_t number) {
-#define IS(name, value, words) || number == (value)
-    return number != (uint32_t)WH_TRIP_NONE && (false WH_TRIP_ROWS(IS));
-#undef IS
-}
-
 bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length) {
     wh_bytes in = {.from = bytes, .room = length};
     const uint32_t trip = wh_bytes_get(&in, 1);
     const uint32_t phase = wh_bytes_get(&in, 1);
-    if (length != WH_TRIP_RECORD_BYTES || !is_trip(trip) || phase >= (uint32_t)WH_PHASES) {
+#define IS(name, value, words) || trip == (value)
+    const bool is_trip = trip != (uint32_t)WH_TRIP_NONE && (false WH_TRIP_ROWS(IS));
+#undef IS
+    if (length != WH_TRIP_RECORD_BYTES || !is_trip || phase >= (uint32_t)WH_PHASES) {
         return false;
     }
     record->trip = (wh_trip)trip;

@@ -5,12 +5,9 @@
 
 #define QUARTERS 4U
 
-static wh_real seconds(uint32_t ticks) {
-    return (wh_real)ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S);
-}
-
 static wh_real radps(uint32_t quarters, uint32_t ticks) {
-    return (wh_real)quarters * (WH_RIG_TWO_PI / (wh_real)QUARTERS) / seconds(ticks);
+    const wh_real time_s = (wh_real)ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S);
+    return (wh_real)quarters * (WH_RIG_TWO_PI / (wh_real)QUARTERS) / time_s;
 }
 
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {

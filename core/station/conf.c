@@ -48,12 +48,6 @@ static const char *words_of(wh_conf_id id) {
     return wh_words_item(words, id);
 }
 
-static const char *unit_of(wh_conf_id id) {
-#define WORD(unit, word, number) "|" word
-    return wh_list_item(WH_CONF_UNIT_ROWS(WORD), row_of(id).unit);
-#undef WORD
-}
-
 /* Returns a list (answer.h) of a choice's values. If the setting is a number, the only item is `real` or `whole`. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
@@ -139,16 +133,6 @@ static void put_sensors(const wh_conf *conf, wh_rig_config *c) {
     c->observer.pulse_rad[1] = c->measure.rotor.pulse_rad[1];
 }
 
-static void put_cell(const wh_conf *conf, wh_rig_config *c) {
-    const wh_real scale = conf->value[WH_CONF_cell_scale] / per_unit[WH_CONF_MILLINEWTON];
-    c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
-}
-
-static bool has_motor(const wh_conf *conf) {
-    return conf->given[WH_CONF_no_load_speed] || conf->given[WH_CONF_rated_voltage] ||
-           conf->given[WH_CONF_stall_torque];
-}
-
 /* settings whose defaults are computed from the motor's data */
 static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
                                    WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
@@ -156,7 +140,8 @@ static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CON
 static void begin_with_motor(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     conf->own(c);
-    if (has_motor(conf)) {
+    if (conf->given[WH_CONF_no_load_speed] || conf->given[WH_CONF_rated_voltage] ||
+        conf->given[WH_CONF_stall_torque]) {
         wh_rig_motor motor;
         wh_rig_motor_of(c, &motor);
         if (conf->given[WH_CONF_no_load_speed]) {
@@ -212,25 +197,21 @@ static uint32_t hash(const wh_conf *conf) {
     return crc;
 }
 
-static bool go_together(const wh_conf *conf) {
-    const wh_real *value = conf->value;
-    return motor_goes(conf) && value[WH_CONF_speed_least] < value[WH_CONF_speed_most] &&
-           value[WH_CONF_speed_most] < value[WH_CONF_speed_limit] &&
-           value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
-}
-
 /* Computes the configuration from the settings. If these contradict each other, returns false, with an incomplete
  * configuration: the caller must restore the settings and call again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
+    const wh_real *value = conf->value;
     begin_with_motor(conf);
-    if (!go_together(conf)) {
+    if (!motor_goes(conf) || !(value[WH_CONF_speed_least] < value[WH_CONF_speed_most]) ||
+        !(value[WH_CONF_speed_most] < value[WH_CONF_speed_limit]) ||
+        !(value[WH_CONF_supply_least] < value[WH_CONF_supply_most])) {
         return false;
     }
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (conf->given[id]) {
-            put(c, (wh_conf_id)id, conf->value[id]);
+            put(c, (wh_conf_id)id, value[id]);
             goes[row_of(id).goes] = true;
         }
     }
@@ -241,9 +222,10 @@ static bool renew(wh_conf *conf) {
         put_sensors(conf, c);
     }
     if (goes[WH_CONF_CELL]) {
-        put_cell(conf, c);
+        const wh_real scale = value[WH_CONF_cell_scale] / per_unit[WH_CONF_MILLINEWTON];
+        c->measure.cell.newton_per_count = is_on(value[WH_CONF_cell_reversed]) ? -scale : scale;
     }
-    c->guard.braked_radps *= conf->value[WH_CONF_damping] / conf->standard[WH_CONF_damping];
+    c->guard.braked_radps *= value[WH_CONF_damping] / conf->standard[WH_CONF_damping];
     if (conf->given[WH_CONF_supply_most]) {
         wh_rig_bound_pulses(c);
     }
@@ -298,20 +280,17 @@ void wh_conf_default(wh_conf *conf) {
     (void)renew(conf);
 }
 
-static void take(wh_conf *conf, unsigned number, wh_real value) {
-    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (row_of(id).number == number && fits((wh_conf_id)id, value) == WH_STATION_FINE) {
-            conf->value[id] = value;
-            conf->given[id] = true;
-        }
-    }
-}
-
 static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     wh_bytes bytes = {.from = payload, .room = count};
     while (bytes.room - bytes.at >= ENTRY_BYTES) {
         const unsigned number = (unsigned)wh_bytes_get(&bytes, 1);
-        take(conf, number, (wh_real)wh_bytes_get_float(&bytes));
+        const wh_real value = (wh_real)wh_bytes_get_float(&bytes);
+        for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+            if (row_of(id).number == number && fits((wh_conf_id)id, value) == WH_STATION_FINE) {
+                conf->value[id] = value;
+                conf->given[id] = true;
+            }
+        }
     }
     if (!renew(conf)) {
         wh_conf_default(conf);
@@ -412,10 +391,12 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
 
 static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     const wh_conf_row row = row_of(id);
+#define WORD(unit, word, number) "|" word
     const wh_value value[] = {{.word = choices(id) + 1},
-                              {.word = unit_of(id)},
+                              {.word = wh_list_item(WH_CONF_UNIT_ROWS(WORD), row.unit)},
                               {.number = row.least},
                               {.number = row.most}};
+#undef WORD
     const wh_value words[] = {{.word = words_of(id)}};
     add_setting(answer, conf, id);
     wh_answer(answer,

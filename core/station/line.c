@@ -26,11 +26,6 @@ static bool belongs_to_key(wh_line *line, unsigned char byte) {
     return false;
 }
 
-static wh_line_event end_line(wh_line *line) {
-    line->ended = true;
-    return line->bad ? WH_LINE_BAD : WH_LINE_WHOLE;
-}
-
 wh_line_event wh_line_take(wh_line *line, char character) {
     const unsigned char byte = (unsigned char)character;
     const bool second = line->returned && byte == FEED;
@@ -46,7 +41,7 @@ wh_line_event wh_line_take(wh_line *line, char character) {
     }
     switch (byte) {
     case RETURN:
-    case FEED: return end_line(line);
+    case FEED: line->ended = true; return line->bad ? WH_LINE_BAD : WH_LINE_WHOLE;
     case ESCAPE:
         forget(line);
         line->key = AFTER_ESCAPE;
@@ -64,8 +59,6 @@ wh_line_event wh_line_take(wh_line *line, char character) {
     return WH_LINE_NOTHING;
 }
 
-static bool is_blank(char character) { return character == ' ' || character == TAB; }
-
 void wh_line_split(wh_words *words, char *text) {
     static const char none[] = ""; /* in RAM, unlike a literal: wh_line_number() reads only RAM */
     bool within = false;
@@ -74,7 +67,7 @@ void wh_line_split(wh_words *words, char *text) {
     }
     words->count = 0;
     for (; *text != '\0'; text++) {
-        const bool blank = is_blank(*text);
+        const bool blank = *text == ' ' || *text == TAB;
         if (blank) {
             *text = '\0';
         } else if (!within) {

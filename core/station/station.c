@@ -363,13 +363,6 @@ void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
     }
 }
 
-static void answer_order(request *r) {
-    const wh_value value[] = {{.word = wh_rig_event_text(r->rig->asked)}};
-    r->station->waits = false;
-    wh_answer(&r->answer, "OK @s", value);
-    send_answer(r, r->rig->answer);
-}
-
 void wh_station_step(wh_station *station, wh_rig *rig) {
     request r;
     unsigned why;
@@ -381,7 +374,10 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         tell_stage(&r);
     }
     if (station->waits && rig->answers != station->answers) {
-        answer_order(&r);
+        const wh_value value[] = {{.word = wh_rig_event_text(rig->asked)}};
+        station->waits = false;
+        wh_answer(&r.answer, "OK @s", value);
+        send_answer(&r, rig->answer);
     }
     if (station->waits || host_is_lost(station, rig)) {
         return;

@@ -22,14 +22,6 @@ _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "
 #define TRIGGERED 4U
 #define TRIPPED 8U
 
-static void capture_start(wh_capture *capture, wh_capture_trigger trigger) {
-    capture->trigger = trigger;
-    capture->state = trigger == WH_CAPTURE_OFF ? WH_CAPTURE_NONE : WH_CAPTURE_WAITS;
-    capture->left = HALF;
-    capture->count = 0;
-    capture->next = 0;
-}
-
 static bool triggers(const wh_capture *capture, uint8_t flags) {
     switch (capture->trigger) {
     case WH_CAPTURE_PULSE: return (flags & PULSED) != 0 && capture->count >= HALF;
@@ -386,20 +378,6 @@ static void add_load(const wh_cell_config *cell, wh_text *answer) {
     wh_answer(answer, ":@6", offset);
 }
 
-static void schema_run(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer) {
-    const wh_value period[] = {{.count = cell->period_ticks * (tel->every > 0 ? tel->every : 1U)}};
-    wh_answer(answer,
-              " channel=0 name=run period_ticks=@c once=" SPEED DRIVE ",state:u1:1 each=", period);
-    add_load(cell, answer);
-    wh_answer(answer, ": i2 -32768, u2 65535: none", NULL);
-}
-
-static void schema_ring(const wh_cell_config *cell, wh_text *answer) {
-    wh_answer(answer, " channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,", NULL);
-    add_load(cell, answer);
-    wh_answer(answer, DRIVE ",flags:u1:1,state:u1:1: flags 1, 2 pulse, 4 trigger, 8 tripped", NULL);
-}
-
 static void schema_states(wh_text *answer) {
     for (unsigned stage = 0; stage < WH_RIG_STAGES; stage++) {
         if (stage < WH_RIG_STATES || stage > WH_RIG_STAGE_OF_PHASE) {
@@ -418,14 +396,25 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
         return WH_STATION_TEL_CHANNEL;
     }
     switch ((wh_tel_channel)number) {
-    case WH_TEL_RUN: schema_run(tel, cell, answer); break;
+    case WH_TEL_RUN:
+        wh_answer(answer,
+                  " channel=0 name=run period_ticks=@c once=" SPEED DRIVE ",state:u1:1 each=",
+                  &(wh_value){.count = cell->period_ticks * (tel->every > 0 ? tel->every : 1U)});
+        add_load(cell, answer);
+        wh_answer(answer, ": i2 -32768, u2 65535: none", NULL);
+        break;
     case WH_TEL_EVENT:
         wh_answer(answer,
                   " channel=1 name=event period_ticks=0 once=what:u1:1,value:u1:1 each="
                   ": what 0 pulse of sensor, 1 state, 2 trip, 3 end of pulse",
                   NULL);
         break;
-    case WH_TEL_RING: schema_ring(cell, answer); break;
+    case WH_TEL_RING:
+        wh_answer(answer, " channel=2 name=ring period_ticks=0 once= each=ticks:u2:1,", NULL);
+        add_load(cell, answer);
+        wh_answer(answer, DRIVE ",flags:u1:1,state:u1:1: flags 1, 2 pulse, 4 trigger, 8 tripped",
+                  NULL);
+        break;
     case WH_TEL_CHANNELS: schema_states(answer); break;
     }
     return WH_STATION_FINE;
@@ -478,7 +467,11 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     }
     if (what < WH_CAPTURE_TRIGGERS) {
         tel->reads = false;
-        capture_start(&tel->capture, (wh_capture_trigger)what);
+        tel->capture.trigger = (wh_capture_trigger)what;
+        tel->capture.state = what == WH_CAPTURE_OFF ? WH_CAPTURE_NONE : WH_CAPTURE_WAITS;
+        tel->capture.left = HALF;
+        tel->capture.count = 0;
+        tel->capture.next = 0;
     } else if (!read_ring(tel)) {
         return WH_STATION_TEL_RING;
     }

@@ -121,12 +121,6 @@ static void see_dial(const wh_sample *sample) {
  * this time has passed, and names the load cell as the cause. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
-static void see_stop(const wh_sample *sample) {
-    stop_pressed = sample->raw != 0 || sample->status != WH_SAMPLE_GOOD;
-    stop_heard = true;
-    stop_ticks = plant.ticks;
-}
-
 /* Takes the newest readings of supply, stop and dials. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
@@ -138,7 +132,9 @@ static void see_levels(void) {
             supply_V = sample->raw < SUPPLY_COUNTS - 1 ? (float)sample->raw * SUPPLY_V_PER_COUNT
                                                        : HAL_MOTOR_SUPPLY_BEYOND;
         } else if (sample->channel == STOP) {
-            see_stop(sample);
+            stop_pressed = sample->raw != 0 || sample->status != WH_SAMPLE_GOOD;
+            stop_heard = true;
+            stop_ticks = plant.ticks;
         } else if (sample->channel >= DIALS) {
             see_dial(sample);
         }
@@ -251,12 +247,6 @@ bool hal_slots_take(hal_slot_edge *edge) {
 /* Returns the number of lost edges and lost samples. */
 uint32_t hal_slots_overruns(void) { return plant.lost; }
 
-static uint8_t load_status(uint8_t status) {
-    return status == WH_SAMPLE_GOOD        ? HAL_LOAD_OK
-           : status == WH_SAMPLE_SATURATED ? HAL_LOAD_SATURATED
-                                           : HAL_LOAD_DISCONNECTED;
-}
-
 bool hal_loadcell_take(hal_load_sample *sample) {
     wh_sample one;
     do {
@@ -267,9 +257,12 @@ bool hal_loadcell_take(hal_load_sample *sample) {
     const bool again = load_seen && one.ticks == load_ticks;
     load_seen = true;
     load_ticks = one.ticks;
-    *sample = (hal_load_sample){.ticks = one.ticks,
-                                .raw = one.raw,
-                                .status = again ? HAL_LOAD_REPEATED : load_status(one.status)};
+    sample->ticks = one.ticks;
+    sample->raw = one.raw;
+    sample->status = again                               ? HAL_LOAD_REPEATED
+                     : one.status == WH_SAMPLE_GOOD      ? HAL_LOAD_OK
+                     : one.status == WH_SAMPLE_SATURATED ? HAL_LOAD_SATURATED
+                                                         : HAL_LOAD_DISCONNECTED;
     return true;
 }
 

@@ -58,21 +58,17 @@ static void keep(hal_turns *turns, const wh_readings *news) {
     turns->sample = 0;
 }
 
-/* Stores the cause of the start, if the frame has it. The plant sends it before the first readings. */
-static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
-    if (frame->version == WH_FRAME_VERSION && frame->kind == WH_FRAME_RESET &&
-        !wh_reset_get(&turns->reset, frame->payload, frame->length)) {
-        turns->reset = (wh_reset){.cause = WH_RESET_OTHER};
-    }
-}
-
 /* Waits for readings. If hello_bytes > 0, answers each WH_FRAME_ASK meanwhile with the hello in turns->payload. */
 static void hear(hal_turns *turns, unsigned hello_bytes) {
     wh_frame frame;
     wh_readings news;
     do {
         receive(turns, &frame);
-        look_for_reset(turns, &frame);
+        /* The plant sends the cause of the start before the first readings. */
+        if (frame.version == WH_FRAME_VERSION && frame.kind == WH_FRAME_RESET &&
+            !wh_reset_get(&turns->reset, frame.payload, frame.length)) {
+            turns->reset = (wh_reset){.cause = WH_RESET_OTHER};
+        }
         if (hello_bytes > 0 && frame.kind == WH_FRAME_ASK) {
             send(turns, WH_FRAME_HELLO, 0, hello_bytes);
         }

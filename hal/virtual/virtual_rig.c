@@ -124,11 +124,6 @@ static int32_t convert(float force_N) {
     return (int32_t)(counts + (counts < 0.0f ? -0.5f : 0.5f));
 }
 
-static uint8_t status_of(int32_t raw) {
-    return raw >= HAL_LOADCELL_RAW_MAX || raw <= -HAL_LOADCELL_RAW_MAX ? HAL_LOAD_SATURATED
-                                                                       : HAL_LOAD_OK;
-}
-
 static void read_load_cell(hal_virtual_rig *rig) {
     wh_real output[OUTPUTS_MAX];
     rig->scene->observe(rig->scene, &rig->state, output);
@@ -140,8 +135,10 @@ static void read_load_cell(hal_virtual_rig *rig) {
         return;
     }
     if (rig->samples < HAL_VIRTUAL_SAMPLES) {
+        const int32_t raw = rig->last_raw;
+        const bool ends = raw >= HAL_LOADCELL_RAW_MAX || raw <= -HAL_LOADCELL_RAW_MAX;
         rig->sample[rig->samples++] = (hal_load_sample){
-            .ticks = rig->ticks, .raw = rig->last_raw, .status = status_of(rig->last_raw)};
+            .ticks = rig->ticks, .raw = raw, .status = ends ? HAL_LOAD_SATURATED : HAL_LOAD_OK};
     }
 }
 

@@ -117,23 +117,13 @@ static bool take_channel(schema *s, const char *line) {
     return true;
 }
 
-/* Takes an answer with the new period of the first channel. */
-static bool take_rate(schema *s, const char *line) {
-    uint32_t period_ticks = 0;
-    if (!s->channel[0].known ||
-        !read_whole(value_of(line, "period_ticks"), 4294967295.0, &period_ticks)) {
-        return false;
-    }
-    s->channel[0].period_ticks = period_ticks;
-    return true;
-}
-
 bool schema_take(schema *s, const char *line) {
     if (strncmp(line, "OK channel=", 11) == 0) {
         return take_channel(s, line);
     }
-    if (strncmp(line, "OK rate=", 8) == 0) {
-        return take_rate(s, line);
+    if (strncmp(line, "OK rate=", 8) == 0) { /* with the new period of the first channel */
+        return s->channel[0].known && read_whole(value_of(line, "period_ticks"), 4294967295.0,
+                                                 &s->channel[0].period_ticks);
     }
     return strncmp(line, "OK 0=", 5) == 0;
 }
