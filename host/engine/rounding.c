@@ -58,7 +58,7 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
     case OP_CELL: return 0.0;
-    /* the round-off of the position in the table; without the interpolation error */
+    /* |v| stands for the round-off of the position in the table. The interpolation error is not included. */
     case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);

@@ -11,8 +11,7 @@ typedef struct rounding_values {
     const double *cosine;    /* [t->count] */
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
-    double
-        least; /* float's smallest normal number, to include underflow and overflow; 0: neither */
+    double least;            /* float's smallest normal number; 0: ignore underflow and overflow */
 } rounding_values;
 
 /* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,

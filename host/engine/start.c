@@ -17,7 +17,7 @@ static void put(char text[METHODS_TEXT_SIZE], const char *before, const char *wo
 }
 
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
-    const char *waiting = NULL; /* "or" comes before the last method */
+    const char *waiting = NULL; /* the next method to write; if it is the last, "or" precedes it */
     text[0] = '\0';
     for (int i = 0; i < WH_METHODS; i++) {
         if (wh_method_takes((wh_method)i, form) && wh_methods[i].takes != WH_NO_RATES) {
@@ -58,7 +58,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 
 /* === checks of the start ====================================================================== */
 
-#define ROUNDING 1e-9 /* a start this far beyond a stop is round-off of converted units; m or rad */
+#define ROUNDING 1e-9 /* m or rad; unit conversion may put a start so far beyond a stop */
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {
     static const char hint[] = "start on the stop or on its free side, or leave the stop out";
@@ -118,8 +118,7 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* Returns false, and reports the reason, if the accelerations contain rates, or if there are contacts or a ledger. The
- * stages of a composition have no rates. */
+/* Returns false, and reports the reason, if the accelerations contain rates, or if there are contacts or a ledger. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

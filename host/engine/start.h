@@ -12,8 +12,8 @@ enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS }; /* room for all methods in a 
 /* Writes the methods that support all systems of this form, such as "euler, heun or rk4". Returns `text`. */
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
 
-/* Writes the names of all methods, with the default first and marked. The methods that do not support first-order
- * systems, or rates, follow after semicolons. Returns `text`. */
+/* Writes the names of all methods. The default is first and marked. The methods that do not support all systems are
+ * last, after semicolons. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
 /* Returns false, and reports each error: a stop that is passed at the start by more than round-off, an undefined gap,
@@ -23,7 +23,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 /* Returns false, and reports each error, if float, as in generated C, cannot represent a start angle. */
 bool start_angles_are_held(const image *im, diags *errors);
 
-/* False, reported: the method (core/method.h) does not support the image's form, or accelerations with rates. */
+/* Returns false, and reports the reason, if the method (core/method.h) does not support the image. */
 bool start_has_method(const image *im, wh_method method, diags *errors);
 
 #endif

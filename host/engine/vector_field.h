@@ -19,7 +19,8 @@ vector_field *vector_field_open(const image *im, const engine_kind *kind);
 void vector_field_close(vector_field *f);
 
 void vector_field_slope(vector_field *f, const double *x, double *slope);
-/* off[n]: round-off bounds, in double, of the last slope: for highest derivatives; else 0. `x`: that slope's state. */
+/* Bounds the round-off, in double, of the last slope, which was computed at `x`. off[i] is the bound of slope[i]. It is
+ * zero if slope[i] is not a highest derivative, because such a slope is copied from `x`. */
 void vector_field_rounding(vector_field *f, const double *x, double *off);
 
 #endif

@@ -1,4 +1,4 @@
-/* c_fixed.h: a scene in fixed point as C: core/fixed.h's operations on integers, in engine_fixed.c's order. */
+/* c_fixed.h: generator of a scene's C code in fixed point. The code has the same operations as engine_fixed.c. */
 #ifndef FIXED_C_FIXED_H
 #define FIXED_C_FIXED_H
 

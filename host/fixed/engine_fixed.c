@@ -9,8 +9,8 @@
 #include "host/number/functions.h"
 
 /* === round-off of a run ======================================================================= */
-/* Each step is compared with the same step of RK4 in double, from the same state. The sum of the differences of the
- * increments since the start is reported (host/check/slow.h). */
+/* The increments of each step are compared with those of RK4 in double from the same state. The differences are summed
+ * from the start of the run, because host/check/slow.h needs the sum. */
 
 typedef struct fixed_loss fixed_loss;
 
@@ -255,7 +255,7 @@ static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
     const int linears = p->coordinates - angles;
-    const int twice = stage == 3 ? 1 : 0; /* stage 3 is at the step's end, not its middle */
+    const int twice = stage == 3 ? 1 : 0; /* stage 3 takes a whole step: increments are doubled */
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
         const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);

@@ -1,4 +1,4 @@
-/* engine_fixed.h: the interpreter in fixed point: core/fixed.h's operations, one by one. */
+/* engine_fixed.h: the interpreter of a scene in fixed point, with the arithmetic of core/fixed.h. */
 #ifndef FIXED_ENGINE_FIXED_H
 #define FIXED_ENGINE_FIXED_H
 

@@ -104,7 +104,7 @@ enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* limits that no binary point reache
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
-    int exponent; /* size <= 2^exponent, except if a power of two was rounded outwards */
+    int exponent; /* size <= 2^exponent, or just above it if outward rounding enlarged it */
     if (number_split(ROUNDED * size, &exponent) == 0.0) {
         return digits;
     }
@@ -124,7 +124,8 @@ static int product_bits(const fixed_list *l, const fixed_op *o) {
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* Returns a sum's digits after the point: at most the finer operand's. Constants and compared values fit with them. */
+/* Returns the digits after the point of a sum or comparison: at most `bits`, and at most those of the finer operand.
+ * Constant operands and compared values fit with them. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -174,7 +175,7 @@ static void request(int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Reduces the digits of products, quotients and sums to those that their users need, to round only once. */
+/* Reduces the digits of products, quotients and sums to those that users need, so that users do not round again. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -206,7 +207,7 @@ static int32_t whole(double value, int bits) {
     return (int32_t)number_nearest(number_scaled(value, bits));
 }
 
-#define MARGIN 1e-6 /* relative margin of a denominator, above its round-off */
+#define MARGIN 1e-6 /* relative; widens a denominator's range by more than its round-off */
 
 /* Aligns a sum's operand to the result's point: a constant is converted, a value is rounded. */
 static void align(const fixed_list *l, fixed_operand *operand, int bits) {
@@ -219,7 +220,7 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     }
 }
 
-/* The largest left shift of a number up to `size` units within 31 digits. */
+/* Returns the largest left shift after which an integer of at most `size` fits into 31 binary digits. */
 static int left_of(double size) {
     int exponent;
     (void)number_split(size + 1.0, &exponent);
@@ -282,7 +283,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
         o->bits--;
     }
     o->follows = a_left >= o->spread;
-    if (o->follows) { /* these shifts are for a divisor with `zeros` leading zeros */
+    if (o->follows) { /* the shifts so far are for the smallest |b|; change them to the largest */
         const int more = most(o->spread - o->a.shift, 0);
         o->a.shift += more - o->spread;
         o->by += more;
@@ -361,7 +362,6 @@ bool fixed_fits(const fixed_list *l) {
     return true;
 }
 
-/* A sum may have one digit more than a product. */
 static int digits_of(const fixed_list *l, int i) {
     const bool sums = l->op[i].code == FIXED_SUM || l->op[i].code == FIXED_DIFFERENCE;
     return is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
@@ -389,7 +389,7 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 }
 
 /* === ranges of values ========================================================================= */
-/* Intervals are computed for each cell of the turn angles: over a whole turn, every denominator could be zero. */
+/* The turn angles are divided into cells, because over a whole turn a denominator's interval often contains zero. */
 
 /* Limits of the cells per turn, and of the cells of all turn angles together. */
 enum {
@@ -481,7 +481,7 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* Bounds an operation's round-off, half a unit each for the result and for shifted operands, by four units. */
+/* Returns the margin for an operation's round-off: four units of its last digit, or 0 if `bits` is unknown. */
 static double rounding_of(const hull *h, const fixed_op *o) {
     const bool rounds = o->code > FIXED_PHASE;
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
@@ -551,7 +551,7 @@ static bool enclose_all(hull *h) {
     return !h->divides_zero;
 }
 
-/* Is a denominator zero somewhere in the turn with all other leaves at mid-range? Then no smaller range helps. */
+/* Can a denominator be zero if all leaves but the turn angles are at mid-range? If so, narrower ranges do not help. */
 static bool divides_zero_anyway(hull *h) {
     h->at_middles = true;
     return !enclose_all(h);
@@ -687,7 +687,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     return made;
 }
 
-/* Enters operation i times `scale`, which is joined with a constant factor of the operation. */
+/* Enters operation i times `scale`. If the operation has a constant factor, `scale` is multiplied into that factor. */
 static int enter_scaled(fixed_list *l, int i, double scale) {
     const fixed_op *o = &l->op[i];
     double factor = scale;

@@ -1,8 +1,8 @@
 /* fixed_list.h: the accelerations' operation list in fixed point: 32-bit integers, each with its own binary point.
  *
- * The list is copied with the step's factors, its values are enclosed, and its points chosen. Operations without a
- * fixed form are refused. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read only numbers and shifts,
- * so they give the same bits. */
+ * The image's list is copied, with its results times the step's factors. Each value gets a range and a binary point.
+ * Operations without a fixed-point form are refused. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read
+ * only integers and shifts, so they give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
@@ -17,8 +17,8 @@
  * 1. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
-/* Largest number of binary digits. FIXED_DIGITS: of a value of the list, so that twice a value fits.
- * FIXED_RESULT_DIGITS: of a result, so that the sum of six fits. FIXED_KEPT_DIGITS: of the state. */
+/* Largest numbers of binary digits. The state and sums may have FIXED_KEPT_DIGITS, and other values FIXED_DIGITS.
+ * Results may only have FIXED_RESULT_DIGITS, because RK4 adds six of them. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -32,11 +32,11 @@ typedef enum fixed_code {
     FIXED_SUM,        /* round(a) + round(b): each operand has its shift */
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
-    FIXED_QUOTIENT, /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
-    FIXED_SAME,     /* round(a), or -round(a): a power of two costs no product */
-    FIXED_ABS,      /* round(|a|) */
-    FIXED_SIGN,     /* sign of a: -1, 0 or 1 */
-    FIXED_LEAST,    /* the smaller of round(a) and round(b) */
+    FIXED_QUOTIENT,   /* a times the reciprocal of b, rounded; for the shifts, see fixed_op.zeros */
+    FIXED_SAME,       /* a times +-2^n, by a shift: round(a) or -round(a) */
+    FIXED_ABS,        /* round(|a|) */
+    FIXED_SIGN,       /* sign of a: -1, 0 or 1 */
+    FIXED_LEAST,      /* the smaller of round(a) and round(b) */
     FIXED_MOST
 } fixed_code;
 
@@ -52,8 +52,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has `zeros` + `more` leading zeros, with `more` from 0 to `spread`. follows: `a` is shifted
-     * by `more`, too; otherwise `by` is smaller by `more`. */
+    /* FIXED_QUOTIENT: |b| has zeros + n leading zeros, with n from 0 to `spread`, and is shifted left by zeros + n.
+     * If `follows`, `a` is also shifted left by n. Otherwise, n is subtracted from `by`. */
     int zeros;
     int spread;
     bool follows;
@@ -88,23 +88,23 @@ typedef struct fixed_leaves {
 /* Limit of a value's size. Products of two such values are finite, and so are all intervals. */
 #define FIXED_SIZE_MOST 0x1p80
 
-/* Encloses all values in op[].range, cell by cell of the turn angles, with the rounding to op[].bits if `bits_known`.
- * Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero (reported).
- * FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
+/* Sets op[].range to the range of each value over all cells of the turn angles. If `bits_known`, the range includes the
+ * rounding to op[].bits. Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero
+ * (reported). FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
 enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
 
-/* Chooses op[].bits, except the leaves' (set by the caller), shifts and numbers. Returns false if a value does not fit
- * (reported). */
+/* Chooses all shifts, the integers of constants, and op[].bits. The caller must have set the bits of leaves. Returns
+ * false, and reports it, if a value does not fit. */
 bool fixed_bits(fixed_list *list, const image *im, diags *errors);
 
 /* Do all values fit? For use after fixed_hull() with bits_known. */
 bool fixed_fits(const fixed_list *list);
 
-/* The digits after the point with which `size` fills at most `digits` binary digits; `digits` for zero. */
+/* Returns the digits after the point: the largest `bits` with size 2^bits <= 2^digits, or `digits` if `size` is 0. */
 int fixed_point_of(double size, int digits);
-/* As fixed_point_of(), for a constant factor with 31 binary digits, the last of them rounded. */
+/* Returns the digits after the point of a constant factor: the largest `bits` with round(|value| 2^bits) < 2^31. */
 int fixed_factor_bits(double value);
 
 #endif
