@@ -15,13 +15,13 @@
 #include "host/show/show.h"
 #include "options.h"
 
-/* Properties of a form. SHOWS: prints equations of each mechanism, and their derivation (--steps), instead of code. */
+/* Properties of a form. SHOWS: prints equations, not code; --steps prints their derivation. */
 enum {
     SHOWS = 1,
     FOLDS = 2,  /* prints values instead of names (--folded) */
     NAMED = 4,  /* the code contains the scene's name (--name) */
     HEADED = 8, /* has a header (--header) */
-    RUNS = 16   /* steps the scene: momenta, method and number type matter */
+    RUNS = 16   /* code that steps the scene, with a method and a number type */
 };
 
 typedef struct form_row {
@@ -69,7 +69,7 @@ typedef struct derive_options {
     bool folded;
 } derive_options;
 
-/* Prints every form except C in fixed point. */
+/* Prints the chosen form. It is not called for C in fixed point, which c_fixed() prints. */
 static void print(const derive_options *o, const loaded *made, const char *file) {
     const image *im = made->image;
     const bool matrix = im->settings.matrix != MATRIX_NONE;
@@ -99,7 +99,7 @@ static void print(const derive_options *o, const loaded *made, const char *file)
     }
 }
 
-/* If the option is given, but the form lacks the property `of`, returns false, and reports the forms `with` it. */
+/* If the option is given, but the form lacks the property `of`: returns false and reports the forms that have it. */
 static bool goes_with(bool given, const char *option, const char *value, unsigned of,
                       const char *with, const form_row *as) {
     const bool goes = !given || (as->is & of) != 0;
@@ -166,7 +166,7 @@ static fixed_plan *plan_of(const image *im, const source_model *from, const engi
     return plan;
 }
 
-/* Can this be C for the core? If not, reports the reason. */
+/* Can the image be written as C for the core? If not, reports the reason. */
 static bool has_c_form(const image *im, source_model *from) {
     const bool has = start_angles_are_held(im, from->errors) &&
                      start_has_method(im, im->settings.method, from->errors);
@@ -181,7 +181,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const bool runs = (as->is & RUNS) != 0;
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
-    if (!runs) { /* only C of the core has tables */
+    if (!runs) { /* only the form `c` can have tables */
         taken.tables = TABLES_NONE;
         taken.cells = 0;
     }
@@ -242,7 +242,7 @@ static bool options_fit(derive_options *o) {
            goes_with(o->common.number == &engine_fixed, "--number fixed", "", RUNS, "c", o->as);
 }
 
-/* Derives all mechanisms of a file if the form shows them and no name is given; otherwise the named one. */
+/* Derives all mechanisms if the form has SHOWS and no name is given; else the scene or mechanism of source_pick(). */
 static int derive_source(source_model *from, void *options) {
     derive_options *o = options;
     const overrides *changes = &o->common.changes;
@@ -259,7 +259,7 @@ static int derive_source(source_model *from, void *options) {
         }
         return code;
     }
-    code = source_pick(from, true, &of, &in); /* code has the values of one scene */
+    code = source_pick(from, true, &of, &in); /* generated code has one scene's values */
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(o->header)) {
         code = EXIT_BAD_INPUT;
     }

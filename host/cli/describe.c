@@ -1,4 +1,4 @@
-/* describe.c: `whirl describe`, `whirl check` and `whirl accel`: answers about a scene that does not run. */
+/* describe.c: `whirl describe`, `whirl check` and `whirl accel`: answers about a model, without a run. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,6 @@ static int words_command(const char *command, const command_usage *usage, int co
 }
 
 /* === whirl accel ============================================================================== */
-/* The highest derivatives at one state, with all digits. */
 
 static const command_usage accel_usage = {
     .head =
@@ -129,7 +128,7 @@ static int derive_all(source_model *from) {
         code = one > code ? one : code;
         unload(&made);
         if (one != EXIT_DONE && in == NULL) {
-            break; /* all scenes of the mechanism have the same error */
+            break; /* stops, because the mechanism's scenes would have the same error */
         }
     }
     return code;

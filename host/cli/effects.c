@@ -12,7 +12,7 @@
 #include "host/study/subsets.h"
 #include "pricing.h"
 
-/* ERROR_PART: error limit without --error, relative to a coordinate's range. ERROR_LEAST: round-off at rest, SI. */
+/* Limits without --error: ERROR_PART of a coordinate's range, but at least ERROR_LEAST (SI), because of round-off. */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 
@@ -109,7 +109,7 @@ static void print_cell(const char *head, bool is_head, const char *format, doubl
     free(text);
 }
 
-/* Prints a row, or the headings if `moved` is NULL. Runs with contacts have evaluations, but no cycles. */
+/* Prints a row, or the headings if `moved` is NULL. If `contacts` is not 0, the only figure is "evaluations". */
 static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
                       int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {
@@ -180,7 +180,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* Removes omitted effects from --with. *out: those that --without must name, because the scene or "all" has them. */
+/* Removes the effects *out from --with. Those that the scene or "all" adds stay in *out: --without must name them. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

@@ -94,7 +94,7 @@ static bool any_contact_acts(const equations *e, const symmetry *of) {
     return any;
 }
 
-/* Prints the force -dV along the symmetry for each potential energy. */
+/* For each potential energy V, prints its force along the symmetry, -dV. */
 static void print_stored(const show *s, const equations *e, const symmetry *of,
                          const char *prefix) {
     algebra *a = e->algebra;
@@ -119,7 +119,7 @@ static void print_stored(const show *s, const equations *e, const symmetry *of,
     free(row);
 }
 
-/* Reports two lengths that the symmetry shifts by different amounts: then its momentum may not be the total one. */
+/* If the symmetry shifts two lengths by different amounts, warns that its momentum may not be the total momentum. */
 static void print_uncommon(const show *s, const equations *e, const symmetry *of,
                            const char *prefix) {
     const symbol *moved[2] = {NULL, NULL};

@@ -178,7 +178,7 @@ static const char *given_for(const figure_options *o, const char *name) {
     return NULL;
 }
 
-/* Does the command line replace the option at word[at] of a figure? Lists of effects are joined instead. */
+/* Does the command line replace the option at word[at] of a figure? --with and --without are never replaced. */
 static bool is_replaced(const figure_options *o, char **word, int at, int count) {
     char *option = alloc_copy(word[at], strcspn(word[at], "="));
     const char *value = options_value(count, word, at, option);

@@ -46,7 +46,7 @@ static int light_field(const char *name, const char *more) {
     return i;
 }
 
-/* Runs the scene in float, because the boards must compute the same bits. */
+/* Runs the scene in float, as the boards do, and notes the hashes that their records must have. */
 static int run_scene(const char *name, light_expected *e) {
     static const load_request request = {
         .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
@@ -98,7 +98,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
         return LIGHT_NONE;
     }
     if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
-        return LIGHT_TOLD; /* not comparable: interrupts on real boards use the stack, too */
+        return LIGHT_TOLD; /* `stack` is not compared, because interrupts of a real board use it, too */
     }
     if (strcmp(name, "period_us") == 0) {
         char *end = NULL;
@@ -133,7 +133,7 @@ static void cycles_of(const light *l, char *cell, size_t size) {
     }
 }
 
-/* The record's row of the table, to be freed. `equal`: number of equal hashes; `differ`: names of different fields. */
+/* The record's row of the table, to be freed. `equal`: number of correct hashes; `differ`: names of wrong fields. */
 static char *light_row(const light *l, int equal, const char *differ) {
     char cycles[120];
     char date[16] = "";
@@ -224,7 +224,7 @@ static int say_wrong(const char *name, const char *why, const char *hint) {
     return EXIT_BAD_INPUT;
 }
 
-/* Reads a file, or the first complete record from a serial line, which is requested repeatedly. */
+/* Reads a file; or asks a serial line for a record every ASK_S seconds, and reads the first complete one. */
 static int listen(port *line, const firstlight_options *o, const char *from_name, light *l) {
     static char bytes[BYTES_MOST];
     size_t count = 0;
@@ -276,7 +276,7 @@ static int read_record(const firstlight_options *o, const char *from_name, light
     return code;
 }
 
-/* The emulator's record must have the same hashes. Its board, compiler and stack become the reference. */
+/* Reads the emulator's record. It must have the hashes in `e`; its board, compiler and stack are added to `e`. */
 static int expect_emulated(const firstlight_options *o, light_expected *e) {
     static light emulated;
     const int code = read_record(o, o->emulated, &emulated);

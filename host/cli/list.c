@@ -270,7 +270,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* Prints the number and title of each figure. `make figures` draws those with a `table`. */
+/* Prints name and title of each figure. Marks figures with a `table`, whose records only `make figures` makes. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;

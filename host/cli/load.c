@@ -66,7 +66,7 @@ bool files_same(const char *one, const char *other) {
             files_are_one(&first, one, &second, other));
 }
 
-/* Endings of files beside an output: unfinished text, description, a sweep's settings. */
+/* Endings of an output and of the files beside it: unfinished (.part), description (.toml), settings (.sweep). */
 static const char *const beside[] = {"", ".part", ".toml", ".toml.part", ".sweep"};
 enum { BESIDE = sizeof beside / sizeof beside[0] };
 
@@ -129,7 +129,7 @@ static void say_ambiguous(const sought *w, const source_model *each, size_t coun
     fputc('\n', stderr);
 }
 
-/* Reports an unknown name, with the nearest name as a hint; after MECHANISM: the nearest scene of the mechanism. */
+/* Reports an unknown name. The hint is the nearest name; for MECHANISM:NAME, the nearest scene of that mechanism. */
 static void say_unknown(const sought *w, const char *target, const source_model *each,
                         size_t count) {
     nearest search = nearest_start(w->name, strlen(w->name));

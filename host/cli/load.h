@@ -20,7 +20,7 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
 /* Do two names mean one file: equal names, one existing file, or one file that does not exist yet? */
 bool files_same(const char *one, const char *other);
 
-/* Do two paths overlap? `output` has files beside it (.part, .toml, .sweep); so has `other`, unless it is an input. */
+/* Does `output` or a file beside it (.part, .toml, .sweep) equal `other` or, unless `is_input`, a file beside `other`? */
 bool files_meet(const char *output, const char *other, bool is_input);
 
 /* === a file, or a built-in model ============================================================== */
@@ -37,7 +37,7 @@ typedef struct source_model {
 
 /* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Returns an exit status (reported). */
 int source_open(source_model *source, const char *target);
-/* Opens the built-in model of an unambiguous target. Returns an exit status; call source_close() in any case. */
+/* Opens the only built-in model that has `target`. Returns an exit status; call source_close() in any case. */
 int source_find(source_model *source, const struct builtin_model *models, size_t count,
                 const char *target);
 /* Returns false after an error (reported). */
@@ -47,8 +47,8 @@ void source_close(source_model *source);
 /* The existing file of a target FILE or FILE:NAME, "/dev/stdin" for "-"; NULL if there is none. The caller frees it. */
 char *source_file(const char *target);
 
-/* The scene, or the mechanism (*in NULL), of `source->name`. Without a name: the file's only scene if `prefer_scene`,
- * else its only mechanism. Returns an exit status. */
+/* Finds the scene named `source->name`, else the mechanism (*in is NULL). If the name is "", finds the only scene (if
+ * `prefer_scene`, and if the file has scenes) or the only mechanism. Returns an exit status (reported). */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
 
 typedef struct load_request {
@@ -56,13 +56,13 @@ typedef struct load_request {
     image_use use;
     bool hints;          /* print a hint for a valid model that could be written better */
     bool scene;          /* target_load(): without a name, a scene rather than the mechanism */
-    bool conserve;       /* compute the coordinates of `conserve` from their momentum */
+    bool conserve;       /* recover the coordinates named by `conserve` from their momenta */
     const char *comment; /* prefix of each line in `contacts`; NULL: no such lines */
 } load_request;
 
 typedef struct loaded {
     image *image;
-    instance *instance; /* `equations` point to it, so unload() frees both */
+    instance *instance; /* owned; `equations` point to it */
     equations *equations;
     char *contacts; /* contacts in words, whole lines; or "" */
 } loaded;

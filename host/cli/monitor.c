@@ -100,7 +100,7 @@ typedef struct monitor {
     bool half_typed; /* the typed text has no end of line yet */
     bool live;       /* true: a serial line; false: a recorded file */
     bool met;        /* the rig has answered at least once */
-    bool begun;      /* all data from before the recording has arrived */
+    bool begun;      /* frames that arrive now belong to the recording */
     int unheard;     /* unanswered questions since the line was opened */
     int64_t asked_ms;
     int64_t kept_ms;  /* when records were last written to their files */
@@ -252,8 +252,8 @@ static void keep_records(monitor *m) {
     }
 }
 
-/* Sends an empty line regularly, because the rig ends a run after silence (setting `host`); not while the user types a
- * line, because it would split the line. */
+/* Sends an empty line regularly, because the rig ends a run after silence (setting `host`). Sends none while the user
+ * types a line, because the typed line would be split. */
 static void stay_alive(monitor *m) {
     const int64_t now = now_ms();
     if (m->line.is_line && m->met && !m->half_typed && now - m->alive_ms >= ALIVE_MS) {

@@ -124,8 +124,8 @@ static bool is_new(int count, char **words, int at, const char *name) {
     return true;
 }
 
-/* If words[*at] is `name` or `name=VALUE`, returns the value and advances *at; else returns NULL. A missing value, or a
- * second one unless the option `repeats`, is reported and sets *bad. If `is_bare`, the result is the word. */
+/* If words[*at] is the option `name`, advances *at and returns its value (the word itself if `is_bare`). Else returns
+ * NULL. If the value is missing, or if the option is given twice without `repeats`, reports the error and sets *bad. */
 static const char *value_of(int count, char **words, int *at, const char *name, bool is_bare,
                             bool repeats, bool *bad) {
     const size_t length = strlen(name);
@@ -178,7 +178,7 @@ static bool is_in(const char *const *list, int count, const char *name) {
     return false;
 }
 
-/* Adds the names of "E, E,...". Returns false (reported) if one is missing or contradicts another. */
+/* Adds the names in `text`, "E, E,...", to *list. Returns false after an error (reported). */
 static bool push_names(common_options *to, const char *const **list, int *count, const char *option,
                        const char *text) {
     const overrides *c = &to->changes;
@@ -350,7 +350,7 @@ static bool take(common_option which, const char *command, const char *value, co
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
     overrides *c = &to->changes;
     const char *word = option_rows[which].word;
-    /* sweeps and prices do not search for the ranges of fixed point */
+    /* other commands do not search for the ranges that fixed point needs */
     const bool knows_fixed = strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
                              strcmp(command, "trust") == 0;
     int chosen;
