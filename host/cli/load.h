@@ -20,7 +20,7 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
 /* Do two names mean one file: equal names, one existing file, or one file that does not exist yet? */
 bool files_same(const char *one, const char *other);
 
-/* Does `output` or a file beside it (.part, .toml, .sweep) equal `other` or, unless `is_input`, a file beside `other`? */
+/* Does `output` or a file beside it (.part, .toml, .sweep) equal `other` or (unless `is_input`) a file beside that? */
 bool files_meet(const char *output, const char *other, bool is_input);
 
 /* === a file, or a built-in model ============================================================== */
