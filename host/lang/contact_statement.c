@@ -173,7 +173,7 @@ bool read_hold(parser *in, const statement_word *word) {
 static const char *form(void) { return word_row(WORD_WHEN)->form; }
 
 /* Returns the coordinate or state to be set, or NULL (reported) if the name is neither. */
-static const symbol *find_target(parser *in, const contact_statement *made, const token *name) {
+static const symbol *find_target(parser *in, const token *name) {
     const named *found = names_find(in->names, name->text, name->length);
     if (found == NULL) {
         no_such_coordinate(in, name);
@@ -193,7 +193,6 @@ static const symbol *find_target(parser *in, const contact_statement *made, cons
                    token_words(in, name));
         return NULL;
     }
-    check_assigned_once(in, made->sets, made->set_count, target, name, "set");
     return target;
 }
 
@@ -203,8 +202,8 @@ static bool parse_set(parser *in, contact_statement *made) {
         return parser_fail(in, form(), "set needs a name, not %s", token_words(in, &name));
     }
     parser_next(in);
-    return parse_assigned(in, &name, find_target(in, made, &name), CONTEXT_EVENT, form(),
-                          &made->sets, &made->set_count);
+    return parse_assigned(in, &name, find_target(in, &name), WORD_WHEN, &made->sets,
+                          &made->set_count);
 }
 
 /* Reads set ITEM {, ITEM}. A line may end after a comma. */

@@ -41,29 +41,25 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* Returns the symbol that records `output` with its noise. All noises of one output share this symbol. */
-static const symbol *record_of(parser *in, const symbol *output) {
-    const mechanism *inside = in->builder->made;
-    for (int i = 0; i < inside->noise_count; i++) {
-        if (inside->noises[i].output == output) {
-            return inside->noises[i].record;
-        }
-    }
-    symbol *record = arena_alloc(in->arena, sizeof *record);
-    *record = *output;
-    record->kind = SYM_RECORD;
-    return record;
-}
-
-static void add_noise(parser *in, const noise *made) {
+static void add_noise(parser *in, noise *made) {
     mechanism *into = in->builder->made;
     for (int i = 0; i < into->noise_count; i++) {
         const noise *each = &into->noises[i];
-        if (each->output == made->output && always_meet(each->effect, made->effect)) {
+        if (each->output != made->output) {
+            continue;
+        }
+        made->record = each->record; /* all noises of one output share this symbol */
+        if (always_meet(each->effect, made->effect)) {
             diag_error(in->diags, made->at, NULL, "noise on '%s' was already given in line %d",
                        made->output->name, each->at.line);
             break;
         }
+    }
+    if (made->record == NULL) {
+        symbol *record = arena_alloc(in->arena, sizeof *record);
+        *record = *made->output;
+        record->kind = SYM_RECORD;
+        made->record = record;
     }
     into->noises = arena_push(in->arena, into->noises, &into->noise_count, made, sizeof *made);
 }
@@ -76,7 +72,6 @@ bool read_noise(parser *in, const statement_word *word) {
                            token_words(in, &in->token));
     }
     made.output = find_output(in, &name);
-    made.record = made.output == NULL ? NULL : record_of(in, made.output);
     parser_next(in);
     if (!parser_expect_word(in, WORD_DEVIATION, WORD_NOISE)) {
         return false;

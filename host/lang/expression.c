@@ -289,16 +289,6 @@ void no_such_symbol(parser *in, const mechanism *of, const token *name) {
                "%s is unknown in mechanism '%s'", token_words(in, name), of->name);
 }
 
-void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
-                         const token *name, const char *verb) {
-    for (int i = 0; i < count; i++) {
-        if (list[i].symbol == of && list[i].primes == name->primes) {
-            diag_error(in->diags, name->at, NULL, "%s was already %s in line %d",
-                       token_words(in, name), verb, list[i].at.line);
-        }
-    }
-}
-
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
     const named *found = names_find(in->builder->names, name->text, name->length);
     if (found == NULL || (found->is_placeholder && found->symbol.kind == SYM_INPUT)) {
@@ -657,18 +647,29 @@ const expr *parse_expression(parser *in, expr_context context) {
     return parse_sum(in);
 }
 
-bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
-                    const char *hint, const assignment **list, int *count) {
+bool parse_assigned(parser *in, const token *name, const symbol *of, word_id statement,
+                    const assignment **list, int *count) {
+    const bool is_event = statement == WORD_WHEN;
+    for (int i = 0; i < *count; i++) {
+        const assignment *each = &(*list)[i];
+        if (each->symbol == of && each->primes == name->primes) {
+            diag_error(in->diags, name->at, NULL, "%s was already %s in line %d",
+                       token_words(in, name), statement == WORD_START ? "given" : "set",
+                       each->at.line);
+        }
+    }
     if (!parser_is_sign(in, '=')) {
-        return parser_fail(in, hint, "'=' is missing after %s, before %s", token_words(in, name),
+        return parser_fail(in, is_event ? word_row(statement)->form : NULL,
+                           "'=' is missing after %s, before %s", token_words(in, name),
                            token_words(in, &in->token));
     }
     parser_next(in);
     const place at = in->token.at;
-    const assignment made = {of, name->primes, parse_expression(in, context), name->at};
-    if (made.value != NULL && of != NULL) {
-        (void)check_value(in, at, made.value, of, name);
+    const expr *value = parse_expression(in, is_event ? CONTEXT_EVENT : CONTEXT_CONSTANT);
+    if (value != NULL && of != NULL) {
+        const assignment made = {of, name->primes, value, name->at};
+        (void)check_value(in, at, value, of, name);
         *list = arena_push(in->arena, *list, count, &made, sizeof made);
     }
-    return made.value != NULL;
+    return value != NULL;
 }

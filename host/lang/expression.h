@@ -21,12 +21,10 @@ void no_such_coordinate(parser *in, const token *name);
 /* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
-/* Reads "= EXPR", the value of `name`; checks it and appends it to the list, unless `of` is NULL (a reported name). */
-bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
-                    const char *hint, const assignment **list, int *count);
-/* Reports an error if `list` already assigns to `name`; `verb` is "set" or "given". */
-void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
-                         const token *name, const char *verb);
+/* Reads "= EXPR", the value of `name` in a WORD_SET, WORD_START or WORD_WHEN. Checks it and appends it to the list,
+ * unless `of` is NULL (a reported name). */
+bool parse_assigned(parser *in, const token *name, const symbol *of, word_id statement,
+                    const assignment **list, int *count);
 
 /* Returns the coordinate of that name, or NULL (reported). `whose` names the statement in messages. */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose);

@@ -281,23 +281,20 @@ static void read_sign(lexer *in, token *made) {
                  {"==", SIGN_EQUAL},
                  {"..", SIGN_TO}};
     const int c = at_offset(in, 0);
+    int sign = c;
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (c == pairs[i].text[0] && at_offset(in, 1) == pairs[i].text[1]) {
-            made->kind = TOKEN_SIGN;
-            made->sign = pairs[i].sign;
-            made->length = 2;
-            advance(in, 2);
-            return;
+            sign = pairs[i].sign;
         }
     }
-    if (strchr("+-*/^(){},;=<>", c) == NULL) {
+    if (sign == c && strchr("+-*/^(){},;=<>", c) == NULL) {
         read_stray(in, made);
         return;
     }
     made->kind = TOKEN_SIGN;
-    made->sign = c;
-    made->length = 1;
-    advance(in, 1);
+    made->sign = sign;
+    made->length = sign == c ? 1 : 2;
+    advance(in, made->length);
 }
 
 token lexer_next(lexer *in) {

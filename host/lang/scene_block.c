@@ -73,10 +73,8 @@ static bool read_set(parser *in, const statement_word *word) {
     } else if (what != NULL && name.primes > 0) {
         diag_error(in->diags, name.at, NULL, "'%s' has no derivative", what->name);
         what = NULL;
-    } else if (what != NULL) {
-        check_assigned_once(in, made->sets, made->set_count, what, &name, "set");
     }
-    return parse_assigned(in, &name, what, CONTEXT_CONSTANT, NULL, &made->sets, &made->set_count);
+    return parse_assigned(in, &name, what, WORD_SET, &made->sets, &made->set_count);
 }
 
 /* Reports a `set` for a symbol of an unselected effect. Called at the scene's end, because `with` may follow `set`. */
@@ -112,11 +110,8 @@ static bool read_start(parser *in, const statement_word *word) {
             "start takes '%s' with at most %d prime%s: higher derivatives follow from the equations",
             what->name, what->order - 1, what->order == 2 ? "" : "s");
         what = NULL;
-    } else if (what != NULL) {
-        check_assigned_once(in, made->starts, made->start_count, what, &name, "given");
     }
-    return parse_assigned(in, &name, what, CONTEXT_CONSTANT, NULL, &made->starts,
-                          &made->start_count);
+    return parse_assigned(in, &name, what, WORD_START, &made->starts, &made->start_count);
 }
 
 static bool read_conserve(parser *in, const statement_word *word) {
