@@ -12,7 +12,7 @@
 static const char refused_part[] =
     "choose --number float; or put this statement into an effect, and use --without EFFECT";
 
-/* Returns false (reported) if the scene has contacts, a ledger, noise, or another method or setting. */
+/* Returns false (reported) if fixed point does not support the scene or its settings. */
 static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (op_list_has(im->list[IMAGE_OBSERVE], OP_NOISE)) {
@@ -136,14 +136,14 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* As make_gain(), with a factor of 15 digits: for the increments of a position at a stage. */
+/* Computes a gain for wh_fixed_mul_short(): `number` has 15 binary digits, and `shift` is 0. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
     return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
 }
 
-/* Returns the digits after the point that fit a component in `range` that changes by 2 `by`; fewer than `list_bits`. */
+/* Returns a component's number of digits after the point, less than `list_bits`. by: largest change in half a step. */
 static int kept_bits(enclosure range, double by, int list_bits) {
     const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
@@ -319,7 +319,7 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Chooses the binary points. The ranges determine the points of the list's results, which determine the state's. */
+/* Chooses the binary points of the list and of the state. Each depends on the other: repeats until none changes. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
@@ -346,7 +346,7 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Chooses points again until every value fits, because their rounding widens the stages. Returns false on failure. */
+/* Chooses the points again while their rounding widens the stages. Returns false on failure. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {

@@ -8,11 +8,11 @@
 
 /* === statements that fixed point refuses, each at its place =================================== */
 
-/* Reports inputs without a declared range, and their range in the run: generated code may get other inputs. Returns
- * false if there are any. */
+/* Reports each input without a declared range, because generated code may get other values than the run. Returns false
+ * if there is such an input. */
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);
 
-/* Multiplication by a constant, with a change of the binary point: x 2^shift number 2^-(32 + by), rounded. */
+/* Multiplication of x by a constant, with a change of the binary point: wh_fixed_mul(x << shift, number, by). */
 typedef struct fixed_gain {
     int32_t number;
     int shift;
@@ -30,10 +30,10 @@ typedef struct fixed_gain {
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;
-    int guard;              /* second order only, as the three gains below */
-    fixed_gain half_rate;   /* of v */
-    fixed_gain half_accel;  /* of A: `number` and `by` for wh_fixed_mul_short() */
-    fixed_gain third_accel; /* of A1 + A2 + A3 */
+    int guard;              /* this and the gains below: second order only */
+    fixed_gain half_rate;   /* multiplies v by h/2 */
+    fixed_gain half_accel;  /* multiplies A1 or A2 by h/2, with wh_fixed_mul_short() */
+    fixed_gain third_accel; /* multiplies A1 + A2 + A3 by h/3 */
 } fixed_mover;
 
 typedef struct fixed_plan {
@@ -41,13 +41,12 @@ typedef struct fixed_plan {
     wh_fixed_format *format; /* [reals + inputs] in the order of the scene */
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
-    /* [reals + inputs] true: declared; false: from a reference run, or twice an input's value */
-    bool *declared;
+    bool *declared;          /* [reals + inputs] false: fixed_ranges() chose the range */
     bool second;
     int coordinates;    /* for first order, the number of components */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
-    int cells; /* number of cells per turn with which no denominator was zero */
+    int cells; /* result of fixed_hull() */
     int64_t *start_angle;
     int32_t *start_real;
     int32_t *start_input;
@@ -58,8 +57,8 @@ typedef struct fixed_plan {
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Prints `begin` and a text, such as "range theta' = -40 .. 40: not declared, ...", for each undeclared range, and for
- * each range of a turn angle, which is not used. */
+/* Prints a line for each undeclared range, such as "range theta' = -40 .. 40: not declared, ...", and for each declared
+ * range of a turn angle, because it is not used. Lines start with `begin`. */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

@@ -5,7 +5,7 @@
 #include "core/step/table.h"
 #include "host/base/alloc.h"
 
-/* === turned or looked up ====================================================================== */
+/* === settings ================================================================================= */
 
 const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ROW_WORD)};
 const char *const image_matrix_words[IMAGE_MATRICES] = {IMAGE_MATRIX_ROWS(IMAGE_ROW_WORD)};

@@ -16,9 +16,10 @@
 
 enum { IMAGE_WAYS = 6 }; /* most variants of an image, each with another way of constant folding */
 
-#define IMAGE_COMPONENTS_MAX 64 /* coordinates of a mechanism, or first-order components */
+#define IMAGE_COMPONENTS_MAX 64 /* second order: most coordinates; first order: most components */
 
-/* Columns of the settings below, and their number: X(id, word in options and descriptions). */
+/* Each setting below is a list of rows X(id, word), with the word in options and descriptions. As X, these macros give
+ * the ids, the words, and the number of rows. */
 #define IMAGE_ROW_ID(id, word) id,
 #define IMAGE_ROW_WORD(id, word) word,
 #define IMAGE_ROW_ONE(id, word) +1
@@ -74,8 +75,8 @@ typedef enum image_role {
     IMAGE_STEP,
     /* the outputs, then value and rate of each coordinate recovered from its momentum */
     IMAGE_OBSERVE,
-    /* highest derivatives by unknown; with energies also BOOK_KINETIC to BOOK_LOSS_POWER, the momenta by unknown, and
-     * the energy integral if it is not T + V */
+    /* the highest derivative of each unknown. If `has_energies`, the results BOOK_KINETIC, ... follow, and last the
+     * energy integral if it is not T + V */
     IMAGE_BOOKS,
     IMAGE_SIGNALS, /* IMAGE_SIGNALS to IMAGE_SETS: for contacts (core/contact.h) */
     IMAGE_FORCES,
@@ -83,18 +84,18 @@ typedef enum image_role {
     IMAGE_POWERS, /* IMAGE_POWERS and IMAGE_LEVELS: for the ledger (core/ledger.h) */
     IMAGE_LEVELS,
     IMAGE_MATRIX, /* a whole step, for core/step/matrix_step.h */
-    IMAGE_TABLES, /* exact functions of a step's tables: result[k] is that of table k */
+    IMAGE_TABLES, /* result[k]: the function that a step's table k approximates */
     IMAGE_ROLES
 } image_role;
 
-/* Results of IMAGE_BOOKS, counted from the end of the highest derivatives. */
+/* Results of IMAGE_BOOKS after its `count` highest derivatives. BOOK_MOMENTA begins the momenta of all unknowns. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* The unit in which a number is displayed, and its SI unit. */
 typedef struct image_unit {
     const char *shown; /* "deg/s" */
     const char *si;    /* "rad/s" */
-    double scale;      /* displayed number = SI * divisor / scale; 1 and 1 if in SI */
+    double scale;      /* shown number = SI value * divisor / scale; in SI, scale == divisor */
     double divisor;
 } image_unit;
 
@@ -127,12 +128,12 @@ typedef struct image_unknown {
     const char *momentum_si; /* unit of the unknown's momentum */
     int starts;              /* number of start values: the order, but at least 2 */
     double *start;           /* [starts] value, rate, ... */
-    place *start_at;         /* [starts] place of the value; no source for a default */
-    /* start[0] is a product of literal numbers, without the round-off of a sum */
+    place *start_at;         /* [starts] place of the value; `source` is NULL for a default */
+    /* start[0] is given without a sum or call; if false, a value near zero may be round-off */
     bool start_written;
 } image_unknown;
 
-/* An input with a rate. Within a step, real[value_at] and real[rate_at] move with its value and rate. */
+/* An input with a rate. During a step, the components real[value_at] and real[rate_at] are its value and rate. */
 typedef struct image_drive {
     int input;
     int rate; /* index of the rate, which is also an input */
@@ -149,7 +150,7 @@ typedef struct component {
 /* The range of a real component or of an input, for fixed point. */
 typedef struct image_range {
     const char *name; /* "theta'" */
-    place at;         /* place of the range in the source, or of the symbol */
+    place at;         /* place of the declared range, else of the symbol */
     bool declared;
     double low; /* SI; only if `declared` is true */
     double high;
@@ -163,11 +164,10 @@ typedef struct image_contact {
     int pin;
     int first_set;
     int sets;
-    const char *unit; /* SI, of a stop's gap; "1" for other kinds */
+    const char *unit; /* SI unit of a stop's gap; "1" for other kinds */
     place at;
-    /* indices of diagnostics.question: expressions that may be undefined; then those evaluated only at an impact */
-    int first_question, questions;
-    int first_late, late;
+    int first_question, questions; /* first index in diagnostics.question, number */
+    int first_late, late; /* the same for expressions that are evaluated only at an impact */
 } image_contact;
 
 typedef enum ledger_kind {
@@ -185,13 +185,12 @@ typedef struct image_entry {
 } image_entry;
 
 typedef struct image_ledger {
-    bool kept;  /* the run has a ledger */
-    bool asked; /* requested by `with ledger`; else the ledger only balances the run */
-    int smooth; /* number of continuous entries, between events */
-    /* all entries: smooth ones, then each contact's energy and impulses by coordinate, then inputs */
-    int entries;
+    bool kept;          /* the run has a ledger */
+    bool asked;         /* requested by `with ledger`; else the ledger only balances the run */
+    int smooth;         /* number of continuous entries, between events */
+    int entries;        /* number of all entries (core/ledger.h) */
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
-    int inputs;         /* number of inputs in the energies: their changes are the last entries */
+    int inputs;         /* number of inputs on which the energies depend */
     bool turned;        /* the rate of an entry has a turn angle outside sines and cosines */
     image_entry *entry; /* [smooth] */
     int *unknown;       /* [accounts] the unknown of a momentum; -1 for the energy */
@@ -217,17 +216,16 @@ typedef enum diagnostics_code {
 typedef struct diagnostics_node {
     diagnostics_code code;
     function_id function;
-    int a; /* numbers of earlier nodes; for states and inputs, indices */
+    int a; /* a and b: indices of earlier nodes, except for DIAGNOSTICS_STATE and DIAGNOSTICS_INPUT */
     int b;
     double number;
-    place at; /* no source in a derived expression */
+    place at; /* place in the file; `source` is NULL in a derived expression */
 } diagnostics_node;
 
 /* A number that must be finite; if it is not, a message names `what` in the statement at `where`. */
 typedef struct diagnostics_question {
     int node;
-    /* a derivative: a message can name only the statement */
-    bool derived;
+    bool derived; /* the node is a derivative, which the file does not contain */
     const char *what;
     place where;
 } diagnostics_question;
@@ -235,16 +233,16 @@ typedef struct diagnostics_question {
 typedef struct image_diagnostics {
     diagnostics_node *node; /* [nodes] */
     int nodes;
-    diagnostics_question *question; /* [questions] of terms first, then of sets, then of contacts */
+    diagnostics_question *question; /* [questions] first `terms`, then `sets`, then contacts */
     int questions;
     int terms; /* number of energies, losses, forces, equations, and their derivatives */
     int sets;  /* number of values that crossings set */
 } image_diagnostics;
 
-/* x+ = Phi x + Gamma u + g, in SI units and radians: rows: states, angles first; columns: states, inputs, 1 */
+/* A step x+ = Phi x + Gamma u + g of the state x (angles first) with the inputs u, in SI units and radians. */
 typedef struct image_matrix {
     int states;
-    int columns;
+    int columns;   /* those of Phi, then of Gamma, then g */
     double *entry; /* [states * columns] row by row, rounded to the nearest double */
 } image_matrix;
 
@@ -253,11 +251,11 @@ typedef struct image {
     /* owner of the lists, which must outlive this image; NULL: this image */
     const struct image *base;
 
-    const char *name; /* the scene's, or the mechanism's */
+    const char *name; /* name of the scene; without a scene, of the mechanism */
     const char *title;
     const char *mechanism;
     place mechanism_at;
-    place at; /* place of the scene, or of the mechanism */
+    place at; /* place of the scene; without a scene, of the mechanism */
     image_effect *effect;
     int effects;
 
@@ -269,7 +267,7 @@ typedef struct image {
 
     wh_form form;
     int count;        /* number of unknowns */
-    int coordinates;  /* integrated coordinates, angles included (second order) */
+    int coordinates;  /* second order: number of integrated coordinates, angles included */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
     int inputs;       /* inputs of the mechanism and of the active effects */
@@ -278,18 +276,18 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* parameters of the mechanism and of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* variants with other ways of folding (folding.h), if folding lost digits; used: lists, starts and inputs */
+    /* [ways] variants: images with other constant folding (folding.h). Only lists, starts and inputs are used. */
     struct image *otherwise[IMAGE_WAYS];
-    int ways;
-    struct image *finer;    /* image of the finer run (image_settings_finer()); NULL: this image */
-    bool unbounded;         /* in a variant, a number of the file is not finite */
+    int ways;               /* 0 if folding lost no digits */
+    struct image *finer;    /* image for the finer run; NULL if it uses this image */
+    bool unbounded;         /* with other constant folding, a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
-    int *place;         /* [count] number among the integrated coordinates, or -1 (second order) */
-    int *from_momentum; /* [recovered] unknown */
-    image_quantity *input; /* [inputs] with the value at the start */
-    image_drive *drive;    /* [drives] */
+    int *place;             /* [count] second order: index of the integrated coordinate, or -1 */
+    int *from_momentum;     /* [recovered] unknown */
+    image_quantity *input;  /* [inputs] with the value at the start */
+    image_drive *drive;     /* [drives] */
     int drives;
     image_quantity *output;    /* [own_outputs] */
     image_quantity *parameter; /* [parameters] */
@@ -305,7 +303,7 @@ typedef struct image {
     const struct fixed_plan *fixed;
 
     bool has_energies; /* the scene is given by energies, not by equations */
-    bool has_integral; /* the energy in the balance is not T + V (host/derive/equations.h) */
+    bool has_integral; /* the energy integral is not T + V (host/derive/equations.h) */
 
     image_contact *contact; /* [contacts] crossings come last */
     int contacts;
@@ -324,8 +322,8 @@ typedef struct image {
 
 void image_free(image *im); /* `im` may be NULL */
 
-/* *finer: the settings of the finer run (host/check/step_doubling.h), without tables, and with compensated sums for a
- * matrix. Returns false if they equal `of`. */
+/* Writes the settings of the finer run (host/check/step_doubling.h): `of` without tables, and with compensated sums if
+ * it has MATRIX_EXACT. Returns false if they equal `of`. */
 bool image_settings_finer(const image_settings *of, image_settings *finer);
 
 component image_component(const image *im, int i); /* angles come first */
@@ -337,18 +335,19 @@ const char *image_stepper(const image *im);
 /* The words after image_stepper(): " compensated", " stabilized", both, or "". */
 const char *image_sums(const image *im);
 
-/* Converts an SI value to the displayed number; image_shows_si(): are the two equal? */
+/* Converts an SI value to the displayed unit. image_shows_si(): is this unit the SI unit? */
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);
 
-/* image_inputs() writes the start of each input to input[inputs]. image_start(): component i, angles (rad) first. */
+/* Writes the initial value of each input to input[inputs]. */
 void image_inputs(const image *im, double *input);
+/* Returns the initial value of component i. Angles (rad) come first. */
 double image_start(const image *im, int i);
 
 /* Does generated code call functions of core/function.h? */
 bool image_calls(const image *im);
 
-/* Returns the first constant of the equations, or the first input, that is neither zero nor a normal float, or 0. */
+/* Returns a constant of the equations, or an input, that is neither zero nor a normal float; 0 if there is none. */
 double image_out_of_float(const image *im);
 
 /* === memory =================================================================================== */
@@ -357,7 +356,7 @@ double image_out_of_float(const image *im);
 size_t memory_float_bytes(const image *im);
 size_t memory_double_bytes(const image *im);
 
-/* === turned or looked up ====================================================================== */
+/* === sines of turn angles ===================================================================== */
 
 #define TURNED_WAVES_MAX 256 /* most phases whose sines a step rotates */
 
