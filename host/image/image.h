@@ -166,7 +166,7 @@ typedef struct image_contact {
     int sets;
     const char *unit; /* SI unit of a stop's gap; "1" for other kinds */
     place at;
-    int first_question, questions; /* first index in diagnostics.question, number */
+    int first_question, questions; /* index of its first question in diagnostics; their number */
     int first_late, late; /* the same for expressions that are evaluated only at an impact */
 } image_contact;
 
