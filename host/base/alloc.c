@@ -175,7 +175,8 @@ char *alloc_words(const char *format, ...) {
 }
 
 FILE *alloc_text(char **text, size_t *length) {
-    FILE *made = open_memstream(text, length);
+    static size_t unread;
+    FILE *made = open_memstream(text, length != NULL ? length : &unread);
     if (made == NULL) {
         alloc_none();
     }

@@ -27,8 +27,8 @@ char *alloc_entry(const char **list);
 /* The text that printf() would print. */
 char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Opens a memory stream. alloc_text_end() closes it and sets *text, for the caller to free: `length` bytes and a zero
- * byte. */
+/* Opens a memory stream. alloc_text_end() closes it and sets *text, for the caller to free: *length bytes and a zero
+ * byte. `length` may be NULL. */
 FILE *alloc_text(char **text, size_t *length);
 void alloc_text_end(FILE *stream);
 

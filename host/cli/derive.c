@@ -1,5 +1,6 @@
 /* derive.c: `whirl derive`: the equations of motion, the first-order form, the code. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -78,12 +79,16 @@ static void print(const derive_options *o, const loaded *made, const char *file)
         emit_c(stdout, im, file);
     } else if (o->as == &forms[OCTAVE] && matrix) {
         matrix_octave(stdout, im, file);
-    } else if (o->as == &forms[OCTAVE] && o->folded) {
-        emit_octave(stdout, im, file, made->contacts);
     } else if (o->as == &forms[OCTAVE]) {
-        emit_octave_head(stdout, im, file, made->contacts);
-        show_octave(stdout, made->equations, emit_octave_variable_is_free);
-        emit_octave_end(stdout, im);
+        char *contacts = contacts_in_octave(made->equations);
+        if (o->folded) {
+            emit_octave(stdout, im, file, contacts);
+        } else {
+            emit_octave_head(stdout, im, file, contacts);
+            show_octave(stdout, made->equations, emit_octave_variable_is_free);
+            emit_octave_end(stdout, im);
+        }
+        free(contacts);
     } else {
         if (latex) {
             printf("%% " EMIT_BANNER " from %s\n", file);
@@ -177,19 +182,15 @@ static bool has_c_form(const image *im, source_model *from) {
 static int derive_one(source_model *from, const mechanism *of, const scene *in,
                       const overrides *changes, const derive_options *o, const char *header) {
     const form_row *as = o->as;
-    const common_options *options = &o->common;
     const bool runs = (as->is & RUNS) != 0;
-    const image_settings *settings = &options->integration;
-    image_settings taken = *settings;
+    load_request request = {.settings = o->common.integration,
+                            .use = IMAGE_TO_WRITE,
+                            .hints = true,
+                            .conserve = runs || o->common.integration.matrix != MATRIX_NONE};
     if (!runs) { /* only the form `c` can have tables */
-        taken.tables = TABLES_NONE;
-        taken.cells = 0;
+        request.settings.tables = TABLES_NONE;
+        request.settings.cells = 0;
     }
-    const load_request request = {.settings = taken,
-                                  .use = IMAGE_TO_WRITE,
-                                  .hints = true,
-                                  .conserve = runs || settings->matrix != MATRIX_NONE,
-                                  .comment = as == &forms[OCTAVE] ? EMIT_OCTAVE_COMMENT : NULL};
     const place at = in != NULL ? in->at : of->at;
     loaded made;
     int code = load(&made, from, of, in, changes, &request);
@@ -203,7 +204,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
-        plan = plan_of(made.image, from, options->number, &good);
+        plan = plan_of(made.image, from, o->common.number, &good);
     }
     if (code == EXIT_DONE &&
         (!good || ((as->is & NAMED) != 0 && !has_name(made.image, from, at, as, header != NULL)) ||

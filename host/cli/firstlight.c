@@ -48,15 +48,14 @@ static int light_field(const char *name, const char *more) {
 
 /* Runs the scene in float, as the boards do, and notes the hashes that their records must have. */
 static int run_scene(const char *name, light_expected *e) {
-    static const load_request request = {
-        .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
+    const common_options plain = options_defaults();
     source_model from;
-    const mechanism *of = NULL;
-    const scene *in = NULL;
     loaded made = {.image = NULL};
     int code = source_open(&from, name);
-    code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
-    code = code == EXIT_DONE ? load(&made, &from, of, in, NULL, &request) : code;
+    if (code == EXIT_DONE) {
+        code = target_load(&made, &from, &plain,
+                           (load_request){.use = IMAGE_TO_WRITE, .scene = true, .conserve = true});
+    }
     if (code == EXIT_DONE) {
         void *run = engine_float.start(made.image);
         const wh_status status = loop_steps(&engine_float, run, made.image->steps);
@@ -190,7 +189,6 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
 enum { WAIT_MS = 100, BYTES_MOST = 1 << 20 };
 
 typedef struct firstlight_options {
-    common_options common; /* no common options are accepted */
     const char *source;
     const char *page;
     const char *board;
@@ -371,7 +369,7 @@ static int compare(void *options) {
 }
 
 int command_firstlight(int count, char **words) {
-    firstlight_options o = {.common = options_defaults(), .wait_s = 60.0, .baud = 115200.0};
+    firstlight_options o = {.wait_s = 60.0, .baud = 115200.0};
     const own_option own[] = {
         {.word = "--board", .text = &o.board},
         {.word = "--emulated", .text = &o.emulated},
@@ -385,5 +383,5 @@ int command_firstlight(int count, char **words) {
                                   .table = own,
                                   .one = "record",
                                   .work = compare};
-    return target_command(&reader, count, words, &o.common, &o, &o.source);
+    return target_command(&reader, count, words, NULL, &o, &o.source);
 }

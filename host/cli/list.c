@@ -181,7 +181,7 @@ static bool put_rows(const source_model *from, const mechanism *m) {
     return true;
 }
 
-static bool put_lines(const source_model *from, const mechanism *of) {
+static void put_lines(const source_model *from, const mechanism *of) {
     const whirl_model *m = from->model;
     printf("mechanism  %-24s %s\n", of->name, of->title);
     for (int i = 0; i < m->scene_count; i++) {
@@ -189,43 +189,31 @@ static bool put_lines(const source_model *from, const mechanism *of) {
             printf("scene      %-24s %s\n", m->scenes[i]->name, m->scenes[i]->title);
         }
     }
-    return true;
 }
 
-typedef struct form {
-    const char *word;
-    const char *head; /* a line before all others, or NULL */
-    /* The lines of the mechanism and its scenes; false after an error (reported). */
-    bool (*put)(const source_model *from, const mechanism *of);
-} form;
-
-static const form forms[] = {
-    {.word = "text", .head = NULL, .put = put_lines},
-    {.word = "table",
-     .head = "kind\tname\tmechanism\tfile\tfirst_line\tlast_line\teffects\tholds\tstep_s\tuntil_s\t"
-             "title",
-     .put = put_rows},
-};
-enum { FORMS = sizeof forms / sizeof forms[0] };
-
 /* `first`: no entry was listed before */
-static int list_one(const source_model *from, const form *as, bool first) {
+static int list_one(const source_model *from, bool table, bool first) {
     bool good = true;
-    if (first && as->head != NULL) {
-        puts(as->head);
+    if (first && table) {
+        puts(
+            "kind\tname\tmechanism\tfile\tfirst_line\tlast_line\teffects\tholds\tstep_s\tuntil_s\ttitle");
     }
     for (int i = 0; good && i < from->model->mechanism_count; i++) {
-        good = as->put(from, from->model->mechanisms[i]);
+        if (table) {
+            good = put_rows(from, from->model->mechanisms[i]);
+        } else {
+            put_lines(from, from->model->mechanisms[i]);
+        }
     }
     diags_flush(from->errors, stderr);
     return good ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
-static int list_builtin(const form *as) {
+static int list_builtin(bool table) {
     int code = EXIT_DONE;
     for (size_t i = 0; i < builtin_model_count; i++) {
         source_model from;
-        const int one = source_builtin(&from, &builtin_models[i]) ? list_one(&from, as, i == 0)
+        const int one = source_builtin(&from, &builtin_models[i]) ? list_one(&from, table, i == 0)
                                                                   : EXIT_BAD_INPUT;
         code = one > code ? one : code;
         source_close(&from);
@@ -233,7 +221,7 @@ static int list_builtin(const form *as) {
     return code;
 }
 
-static int list_file(const char *file, const form *as, bool first) {
+static int list_file(const char *file, bool table, bool first) {
     source_model from;
     int code = source_open(&from, file);
     if (code == EXIT_DONE && from.name[0] != '\0') {
@@ -244,7 +232,7 @@ static int list_file(const char *file, const form *as, bool first) {
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
-        code = list_one(&from, as, first);
+        code = list_one(&from, table, first);
     }
     source_close(&from);
     return code;
@@ -292,6 +280,7 @@ typedef struct list_options {
 } list_options;
 
 static int list_work(void *options) {
+    static const char *const forms[] = {"text", "table"};
     const list_options *o = options;
     const int other = o->units + o->hard + o->figures;
     if (other + (o->files > 0) + (o->form != NULL) > 1 && other > 0) {
@@ -304,13 +293,13 @@ static int list_work(void *options) {
         return o->units ? list_units() : o->hard ? list_hard() : list_figures();
     }
     const int chosen = options_choose("list", "form", o->form != NULL ? o->form : "text", forms,
-                                      sizeof forms[0], FORMS);
+                                      sizeof forms[0], 2);
     if (chosen < 0) {
         return EXIT_BAD_INPUT;
     }
-    int code = o->files == 0 ? list_builtin(&forms[chosen]) : EXIT_DONE;
+    int code = o->files == 0 ? list_builtin(chosen == 1) : EXIT_DONE;
     for (int i = 0; i < o->files; i++) {
-        const int one = list_file(o->file[i], &forms[chosen], i == 0);
+        const int one = list_file(o->file[i], chosen == 1, i == 0);
         code = one > code ? one : code;
     }
     return code;

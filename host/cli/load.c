@@ -13,6 +13,7 @@
 #include "host/base/alloc.h"
 #include "host/base/spelling.h"
 #include "host/derive/lagrange.h"
+#include "host/emit/emit.h"
 #include "host/engine/start.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
@@ -336,15 +337,11 @@ static void say_hint(const instance *inst) {
         friction->at.source->file, friction->at.line, friction->at.column, name, name);
 }
 
-static char *contacts_of(const equations *e, const char *comment) {
+char *contacts_in_octave(const equations *e) {
     char *text;
-    size_t length;
-    FILE *out = alloc_text(&text, &length);
-    if (comment != NULL) {
-        show_events(out, e, comment,
-                    "This function has the motion between events. It does not "
-                    "contain:");
-    }
+    FILE *out = alloc_text(&text, NULL);
+    show_events(out, e, EMIT_OCTAVE_COMMENT,
+                "This function has the motion between events. It does not contain:");
     alloc_text_end(out);
     return text;
 }
@@ -363,16 +360,13 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        const bool *conserve = request->conserve ? made->equations->instance->conserve : NULL;
+        const bool *conserve = request->conserve ? made->instance->conserve : NULL;
         made->image =
             image_make(made->equations, conserve, &request->settings, request->use, s->errors);
     }
     diags_flush(s->errors, stderr);
-    if (made->equations != NULL && made->image != NULL) {
-        if (request->hints) {
-            say_hint(made->equations->instance);
-        }
-        made->contacts = contacts_of(made->equations, request->comment);
+    if (made->image != NULL && request->hints) {
+        say_hint(made->instance);
     }
     return made->image == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }
@@ -401,5 +395,4 @@ void unload(loaded *made) {
     image_free(made->image);
     equations_free(made->equations);
     instance_free(made->instance);
-    free(made->contacts);
 }

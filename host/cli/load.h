@@ -54,22 +54,22 @@ int source_pick(source_model *source, bool prefer_scene, const mechanism **of, c
 typedef struct load_request {
     image_settings settings;
     image_use use;
-    bool hints;          /* print a hint for a valid model that could be written better */
-    bool scene;          /* target_load(): without a name, a scene rather than the mechanism */
-    bool conserve;       /* recover the coordinates named by `conserve` from their momenta */
-    const char *comment; /* prefix of each line in `contacts`; NULL: no such lines */
+    bool hints;    /* print a hint for a valid model that could be written better */
+    bool scene;    /* target_load(): without a name, a scene rather than the mechanism */
+    bool conserve; /* recover the coordinates named by `conserve` from their momenta */
 } load_request;
 
 typedef struct loaded {
     image *image;
     instance *instance; /* owned; `equations` point to it */
     equations *equations;
-    char *contacts; /* contacts in words, whole lines; or "" */
 } loaded;
 
 /* Derives the equations of an instance and makes its image. Returns an exit status (reported); call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_request *request);
+/* The contacts as the comment that emit_octave() writes; to be freed. */
+char *contacts_in_octave(const equations *e);
 /* Can a run start with the image's method and this number type? If not, reports the reasons. */
 bool image_can_start(const image *im, const engine_kind *kind, diags *errors);
 /* Warns of values that float cannot represent. */

@@ -21,7 +21,6 @@
 enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
 
 typedef struct monitor_options {
-    common_options common;
     const char *port;
     const char *output[OUTPUTS];
     double rate;
@@ -404,7 +403,7 @@ static int run(void *options) {
 }
 
 int command_monitor(int count, char **words) {
-    monitor_options o = {.common = options_defaults(), .rate = 500.0, .baud = 115200.0};
+    monitor_options o = {.rate = 500.0, .baud = 115200.0};
     const own_option own[] = {
         OUTPUT(CSV, FILE_WRITTEN),
         OUTPUT(VCD, FILE_WRITTEN),
@@ -419,5 +418,5 @@ int command_monitor(int count, char **words) {
         {.word = NULL}};
     const target_reader reader = {
         .command = "monitor", .usage = &monitor_usage, .table = own, .one = "line", .work = run};
-    return target_command(&reader, count, words, &o.common, &o, &o.port);
+    return target_command(&reader, count, words, NULL, &o, &o.port);
 }

@@ -55,8 +55,7 @@ static int run_command(const pricing_command *c, int count, char **words) {
     own_option own[PRICING_OPTIONS + 1] = {{.word = NULL}};
     int all = 0;
     char *head;
-    size_t length;
-    FILE *out = alloc_text(&head, &length);
+    FILE *out = alloc_text(&head, NULL);
     fputs(c->head, out);
     for (int i = 0; i < PRICING_OPTIONS; i++) {
         const pricing_row *row = &option_rows[i];

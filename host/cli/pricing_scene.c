@@ -19,8 +19,7 @@ char *pricing_quoted(const char *word) {
         return alloc_words("\"%s\"", word);
     }
     char *text;
-    size_t length;
-    FILE *out = alloc_text(&text, &length);
+    FILE *out = alloc_text(&text, NULL);
     fputc('\'', out);
     for (; *word != '\0'; word++) {
         fputs(*word == '\'' ? "'\\''" : (char[]){*word, '\0'}, out);
@@ -32,7 +31,6 @@ char *pricing_quoted(const char *word) {
 
 char *pricing_words(const overrides *c, bool as_label) {
     char *text;
-    size_t length;
     const struct {
         const char *option;
         const char *label; /* NULL: not in labels */
@@ -45,7 +43,7 @@ char *pricing_words(const overrides *c, bool as_label) {
                  {"--step ", NULL, &c->step, c->step != NULL},
                  {"--until ", NULL, &c->until, c->until != NULL}};
     const char *separator = as_label ? "" : " ";
-    FILE *out = alloc_text(&text, &length);
+    FILE *out = alloc_text(&text, NULL);
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         for (int k = 0; k < parts[i].count && (!as_label || parts[i].label != NULL); k++) {
             char *word =
@@ -68,9 +66,8 @@ static const char *name_of(void *context, int point) {
     pricing_scene *p = context;
     double *value = alloc(p->grid->count, sizeof *value);
     char number[NUMBER_SIZE];
-    size_t length;
     free(p->name);
-    FILE *out = alloc_text(&p->name, &length);
+    FILE *out = alloc_text(&p->name, NULL);
     const int axes = is_own(p, point) ? 0 : p->grid->count;
     if (axes > 0) {
         grid_values(p->grid, (uint64_t)point, value);

@@ -18,10 +18,8 @@ typedef int scene_visitor(void *context, const char *file, const loaded *made);
 
 /* Visits every scene of an opened source, also after a refused one. Returns an exit status. */
 static int each_scene_of(source_model *from, scene_visitor *visit, void *context) {
-    static const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT,
-                                         .use = IMAGE_TO_WRITE,
-                                         .conserve = true,
-                                         .comment = EMIT_OCTAVE_COMMENT};
+    static const load_request request = {
+        .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
     int code = EXIT_DONE;
     for (int k = 0; k < from->model->scene_count; k++) {
         const scene *in = from->model->scenes[k];
@@ -92,7 +90,9 @@ static int emit_scene(void *context, const char *file, const loaded *made) {
             show_text(out, made->equations);
             show_latex(out, made->equations);
             if (im->recovered == 0) {
-                emit_octave(out, im, file, made->contacts);
+                char *contacts = contacts_in_octave(made->equations);
+                emit_octave(out, im, file, contacts);
+                free(contacts);
             }
         } else {
             scenes_write_hash(out, "scene", &engine_float, im);

@@ -92,7 +92,6 @@ static const command_usage map_usage = {
 /* --- options -----------------------------------------------------------------------------------*/
 
 typedef struct sweep_options {
-    const char *command;
     common_options common;
     const char *target;
     const char **over; /* [over_count] */
@@ -317,7 +316,7 @@ static int sweep_picked(const sweep_options *o, source_model *from, sweep *s) {
 static int sweep_source(source_model *from, void *options) {
     sweep_options *o = options;
     overrides changes = o->common.changes;
-    grid g = {.command = o->command};
+    grid g = {.command = o->maps ? "map" : "sweep"};
     sweep s = {.grid = &g,
                .changes = &changes,
                .kind = o->common.number,
@@ -341,8 +340,7 @@ static int sweep_source(source_model *from, void *options) {
 }
 
 int command_sweep(int count, char **words) {
-    sweep_options o = {.command = "sweep",
-                       .common = options_defaults(),
+    sweep_options o = {.common = options_defaults(),
                        .over = alloc(count, sizeof(const char *)),
                        .measure = alloc(count, sizeof(const char *)),
                        .part = {1, 1},
@@ -367,8 +365,7 @@ int command_sweep(int count, char **words) {
 }
 
 int command_map(int count, char **words) {
-    sweep_options o = {.command = "map",
-                       .maps = true,
+    sweep_options o = {.maps = true,
                        .common = options_defaults(),
                        .over = alloc(count, sizeof(const char *)),
                        .tolerance = HORIZON_TOLERANCE,

@@ -142,7 +142,6 @@ static bool take_curve(figure *f, char *words, bool law) {
     const char *name = law ? field[1] : field[3];
     int number = 0;
     char *text = NULL;
-    size_t length;
     if (count < (law ? 2 : 4)) {
         return is_wrong(f, "too few fields: ", words);
     }
@@ -156,7 +155,7 @@ static bool take_curve(figure *f, char *words, bool law) {
                  !has_columns(f, &f->data[number], field[2]))) {
         return false;
     }
-    FILE *to = alloc_text(&text, &length);
+    FILE *to = alloc_text(&text, NULL);
     fputs(f->curves > 0 ? ", " : "", to);
     if (law) {
         fprintf(to, "(%s) with lines lw 1.2 dt 2 lc rgb '" PALETTE_FRAME "'", field[0]);
@@ -264,12 +263,11 @@ static void write_figure(FILE *to, const figure *f, const char *title, const cha
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied) {
     char *commands = NULL;
-    size_t length;
     figure f = {.where = where,
                 .data = data,
                 .count = count,
                 .varied = varied[0] != '\0',
-                .to = alloc_text(&commands, &length)};
+                .to = alloc_text(&commands, NULL)};
     bool good = take_text(&f, text);
     alloc_text_end(f.to);
     const char *at = text;

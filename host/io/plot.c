@@ -302,8 +302,7 @@ void plot_run_close(plot_run *run) {
 
 char *plot_run_quoted(const char *text) {
     char *made = NULL;
-    size_t length = 0;
-    FILE *to = alloc_text(&made, &length);
+    FILE *to = alloc_text(&made, NULL);
     fputc('"', to);
     for (const char *at = text; *at != '\0'; at++) {
         const unsigned char code = (unsigned char)*at;
@@ -346,8 +345,7 @@ static bool write_beside(const char *csv, const char *text) {
 
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables) {
     char *text;
-    size_t length;
-    FILE *to = alloc_text(&text, &length);
+    FILE *to = alloc_text(&text, NULL);
     char *title = plot_run_quoted(run->title);
     char *label = plot_run_quoted(run->label);
     fprintf(to, "%stitle = %s\nlabel = %s\n", facts, title, label);
@@ -888,8 +886,7 @@ static char *title_of(const panels *p, const plot_choice *choice, const plot_run
 /* For readers who cannot see the picture; to be freed. */
 static char *alternative_text(const panels *p, const plot_run *runs) {
     char *text;
-    size_t length;
-    FILE *to = alloc_text(&text, &length);
+    FILE *to = alloc_text(&text, NULL);
     fprintf(to, "Curves over %s.", p->x_name);
     for (int i = 0; i < p->quantities; i++) {
         const panels_quantity *q = &p->quantity[i];

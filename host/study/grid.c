@@ -264,8 +264,7 @@ bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
     if (good) {
         axis *longer = alloc_more(g->axes, g->count + 1, sizeof *longer);
         made.name = alloc_trimmed(r.name, strlen(r.name));
-        made.is_start = made.symbol != NULL &&
-                        (made.symbol->kind == SYM_COORDINATE || made.symbol->kind == SYM_STATE);
+        made.is_start = made.symbol != NULL && symbol_moves(made.symbol);
         made.column = alloc_words(made.is_start ? "start(%s)" : "%s", made.name);
         g->axes = longer;
         g->axes[g->count] = made;

@@ -555,8 +555,7 @@ bool sweep_can_share(const grid *g, const image *im) {
 /* Prints the first message, without its place, source line and hint. */
 static void tell_first(diags *errors, FILE *reason) {
     char *text = NULL;
-    size_t length = 0;
-    FILE *memory = alloc_text(&text, &length);
+    FILE *memory = alloc_text(&text, NULL);
     diags_flush(errors, memory);
     alloc_text_end(memory);
     const char *start = strstr(text, "error: ");

@@ -368,8 +368,7 @@ static void put_instance(FILE *out, const instance *base) {
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part) {
     char *text = NULL;
-    size_t length = 0;
-    FILE *out = alloc_text(&text, &length);
+    FILE *out = alloc_text(&text, NULL);
     fprintf(out, "whirl " WH_VERSION " sweep: settings of the CSV beside this file, format 4\n");
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%08" PRIx32 "\n", hash_text(model_text, strlen(model_text)));
@@ -642,8 +641,7 @@ static int run_points(const session_settings *o, sitting *s) {
 int session_run(const sweep *s, const session_settings *o) {
     sitting here = {.sweep = s, .first = o->first, .rows = o->end - o->first};
     char *header = NULL;
-    size_t length = 0;
-    FILE *out = alloc_text(&header, &length);
+    FILE *out = alloc_text(&header, NULL);
     if (o->header) {
         sweep_header(s, out);
     }

@@ -364,8 +364,7 @@ static bool draw(const char *file, const stability_map *m, const char *words, co
 
 bool map_plot(const char *file, const stability_map *m, const char *words) {
     char *text; /* a description of the picture for readers who cannot see it */
-    size_t length;
-    FILE *out = alloc_text(&text, &length);
+    FILE *out = alloc_text(&text, NULL);
     fprintf(out, "A map of %s and %s.", along_of(m)->column, rows_of(m)->column);
     for (int i = 0; i < PALETTE_AREAS; i++) {
         fprintf(out, " %llu %s: %s.", (unsigned long long)map_count(m, (map_verdict)i),

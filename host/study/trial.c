@@ -324,8 +324,7 @@ static void drop_still(trials *t) {
     if (kept == 0 || kept == t->points) {
         return;
     }
-    size_t length;
-    FILE *out = alloc_text(&t->still, &length);
+    FILE *out = alloc_text(&t->still, NULL);
     const int points = t->points;
     t->points = 0;
     for (int p = 0; p < points; p++) {
