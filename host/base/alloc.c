@@ -26,6 +26,14 @@ static _Noreturn void alloc_none(void) {
     exit(EXIT_RUN_FAILED);
 }
 
+/* Returns `made`, unless memory has run out. */
+static void *not_null(void *made) {
+    if (made == NULL) {
+        alloc_none();
+    }
+    return made;
+}
+
 struct arena *arena_new(void) {
     return alloc(1, sizeof(struct arena));
 }
@@ -120,19 +128,11 @@ void *alloc(int64_t count, size_t size) { return alloc_tail(0, count, size); }
 void *alloc_tail(size_t head, int64_t count, size_t size) {
     size_t bytes;
     const bool fits = !__builtin_add_overflow(bytes_of(count, size), head, &bytes);
-    void *made = fits ? calloc(bytes, 1) : NULL;
-    if (made == NULL) {
-        alloc_none();
-    }
-    return made;
+    return not_null(fits ? calloc(bytes, 1) : NULL);
 }
 
 void *alloc_more(void *array, int64_t count, size_t size) {
-    void *made = realloc(array, bytes_of(count, size));
-    if (made == NULL) {
-        alloc_none();
-    }
-    return made;
+    return not_null(realloc(array, bytes_of(count, size)));
 }
 
 char *alloc_copy(const char *text, size_t length) {
@@ -176,11 +176,7 @@ char *alloc_words(const char *format, ...) {
 
 FILE *alloc_text(char **text, size_t *length) {
     static size_t unread;
-    FILE *made = open_memstream(text, length != NULL ? length : &unread);
-    if (made == NULL) {
-        alloc_none();
-    }
-    return made;
+    return not_null(open_memstream(text, length != NULL ? length : &unread));
 }
 
 /* A memory stream fails only when memory runs out. */

@@ -30,28 +30,24 @@ typedef struct option_row {
 #define ROW(id, word, value, group, text) [id] = {word, value, group, text},
 static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 
-/* Help texts: first column of the description, and last column. */
-enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
+/* Help texts: first and last column of descriptions, and last column of lists of names. */
+enum { TEXT_COLUMN = 23, TEXT_END = 99, LINE_COLUMNS = 78 };
 
-/* Prints a help text from `column` on, in lines of at most `width` columns; later lines begin at `margin`. */
-static void options_text(FILE *out, const char *text, int column, int margin, int width) {
+void options_describe(FILE *out, const char *word, const char *value, const char *text) {
+    const int width = fprintf(out, "  %s %s", word, value);
+    fprintf(out, "%*s", TEXT_COLUMN - width, "");
+    int column = TEXT_COLUMN;
     for (; *text != '\0'; text++) {
-        const int word = 1 + (int)strcspn(text + 1, " \n"); /* includes the blank before the word */
-        if (*text == '\n' || (*text == ' ' && column + word > width)) {
-            fprintf(out, "\n%*s", margin, "");
-            column = margin;
+        const int next = 1 + (int)strcspn(text + 1, " \n"); /* includes the blank before the word */
+        if (*text == '\n' || (*text == ' ' && column + next > TEXT_END)) {
+            fprintf(out, "\n%*s", TEXT_COLUMN, "");
+            column = TEXT_COLUMN;
         } else {
             fputc(*text, out);
             column++;
         }
     }
     fputc('\n', out);
-}
-
-void options_describe(FILE *out, const char *word, const char *value, const char *text) {
-    const int width = fprintf(out, "  %s %s", word, value);
-    fprintf(out, "%*s", TEXT_COLUMN - width, "");
-    options_text(out, text, TEXT_COLUMN, TEXT_COLUMN, TEXT_COLUMN + OPTION_TEXT_WIDTH);
 }
 
 static void put_word(FILE *out, const char *word, int *column) {

@@ -55,8 +55,6 @@ typedef enum common_option { OPTION_ROWS(OPTION_NAME) } common_option;
 enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
 #undef OPTION_ONE
 
-enum { OPTION_TEXT_WIDTH = 76 };
-
 /* Groups of options, as bits. */
 typedef enum option_group {
     OPTIONS_CHANGE = 1, /* changes of an instance */

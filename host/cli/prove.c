@@ -128,18 +128,6 @@ static void say_end(const containment_found *h, double end_s) {
     }
 }
 
-static int status_of(const containment_found *h, const image *im) {
-    if (h->status != WH_OK) {
-        fprintf(
-            stderr,
-            "whirl prove: error: the run diverged in the step after t = %.15g s\nhint: try a smaller --step\n",
-            ratio_times(h->run_steps, im->step));
-    }
-    return h->end == CONTAINMENT_STOPPED ? EXIT_INTERRUPTED
-           : h->status == WH_OK          ? EXIT_DONE
-                                         : EXIT_RUN_FAILED;
-}
-
 static int held_out(const prove_options *o, const containment_request *w, const rows *r) {
     containment_found h = containment_run(w);
     if (w->progress != NULL) {
@@ -149,7 +137,15 @@ static int held_out(const prove_options *o, const containment_request *w, const 
         containment_print(options_is_standard(o->csv) ? stderr : stdout, &h, w);
     }
     say_end(&h, ratio_times(w->image->steps, w->image->step));
-    const int code = status_of(&h, w->image);
+    if (h.status != WH_OK) {
+        fprintf(
+            stderr,
+            "whirl prove: error: the run diverged in the step after t = %.15g s\nhint: try a smaller --step\n",
+            ratio_times(h.run_steps, w->image->step));
+    }
+    const int code = h.end == CONTAINMENT_STOPPED ? EXIT_INTERRUPTED
+                     : h.status == WH_OK          ? EXIT_DONE
+                                                  : EXIT_RUN_FAILED;
     const bool good = plot_run_csv_end(r->file, o->csv, h.ranged, "prove", w->image->name);
     containment_free(&h);
     return good || code == EXIT_INTERRUPTED ? code : EXIT_RUN_FAILED;

@@ -123,8 +123,9 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
     return true;
 }
 
-/* Control characters become blanks, because XML has none. */
-static void put_xml(FILE *to, const char *text) {
+/* Writes a line with the element. Control characters become blanks, because XML has none. */
+static void put_element(FILE *to, const char *name, const char *text) {
+    fprintf(to, "<%s>", name);
     for (const char *at = text; *at != '\0'; at++) {
         const unsigned char code = (unsigned char)*at;
         switch (*at) {
@@ -134,6 +135,7 @@ static void put_xml(FILE *to, const char *text) {
         default: fputc(code < 0x20 || code == 0x7f ? ' ' : code, to); break;
         }
     }
+    fprintf(to, "</%s>\n", name);
 }
 
 /* Makes an SVG dark on a dark page. The selectors are spelled as gnuplot writes colours. */
@@ -151,13 +153,9 @@ static void copy_picture(const gnuplot *g) {
     bool head = strcmp(ending_of(g->file), "svg") == 0;
     while (head && fgets(line, sizeof line, g->drawn) != NULL) {
         if (strncmp(line, "<title>", 7) == 0) {
-            fputs("<title>", g->picture);
-            put_xml(g->picture, g->title);
-            fputs("</title>\n", g->picture);
+            put_element(g->picture, "title", g->title);
         } else if (strncmp(line, "<desc>", 6) == 0) {
-            fputs("<desc>", g->picture);
-            put_xml(g->picture, g->text);
-            fputs("</desc>\n", g->picture);
+            put_element(g->picture, "desc", g->text);
             fputs(dark, g->picture);
             head = false;
         } else {

@@ -683,14 +683,6 @@ static extent quantity_extent(const panels *p, const plot_run *runs, const int *
     return e;
 }
 
-static int quantities_in(const panels *p, int panel) {
-    int count = 0;
-    for (int i = 0; i < p->quantities; i++) {
-        count += p->quantity[i].panel == panel ? 1 : 0;
-    }
-    return count;
-}
-
 /* A panel's quantities (-1: all), separated by commas; if longer than `most`, their number. The caller frees it. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names;
@@ -713,7 +705,10 @@ static char *names_of(const panels *p, int panel, size_t most) {
 /* One run: the quantity's name, with its description if that fits. Several runs: the run's label. */
 static char *legend_of(const panels *p, const panels_quantity *q, int k, const plot_run *run) {
     const char *text = run->column[q->column[k]].text;
-    const int together = quantities_in(p, q->panel);
+    int together = 0; /* quantities of the panel */
+    for (int i = 0; i < p->quantities; i++) {
+        together += p->quantity[i].panel == q->panel;
+    }
     return p->runs == 1 && together <= 2 && text[0] != '\0' && strlen(text) <= TEXT_MOST
                ? alloc_words("%s: %s", q->name, text)
            : p->runs == 1  ? alloc_words("%s", q->name)

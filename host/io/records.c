@@ -200,18 +200,6 @@ static int name_quantity(traces *w, const char *name, const char *text, const im
     return made;
 }
 
-static void name_inputs(traces *w) {
-    const image *im = w->form->image;
-    if (im->inputs > 0) {
-        vcd_scope(w->vcd, "inputs");
-    }
-    for (int i = 0; i < im->inputs; i++) {
-        const image_quantity *q = &im->input[i];
-        const int signal = name_quantity(w, q->name, q->text, &q->unit);
-        vcd_change(w->vcd, signal, 0, image_shown(&q->unit, q->value));
-    }
-}
-
 static void name_contacts(traces *w) {
     static const struct {
         const char *does;
@@ -267,7 +255,14 @@ traces *traces_open(FILE *out, const records *form) {
         w->signal[i] = name_quantity(w, name, c->text, c->unit);
         free(name);
     }
-    name_inputs(w);
+    if (im->inputs > 0) {
+        vcd_scope(w->vcd, "inputs");
+    }
+    for (int i = 0; i < im->inputs; i++) {
+        const image_quantity *q = &im->input[i];
+        const int signal = name_quantity(w, q->name, q->text, &q->unit);
+        vcd_change(w->vcd, signal, 0, image_shown(&q->unit, q->value));
+    }
     name_contacts(w);
     return w;
 }

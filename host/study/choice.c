@@ -67,18 +67,7 @@ static double figure_of(const table *made, const choice_row *row, int kind) {
                                            : of->result.error;
 }
 
-/* Rows are entered in the order of their price, so that of rows with equal figures the cheapest is chosen. */
-static void enter(choice *c, const table *made, const choice_row *row) {
-    for (int i = 0; i < CHOICES; i++) {
-        const double figure = figure_of(made, row, i);
-        const bool known = kinds[i].least != OF_FLASH || figure > 0.0;
-        if ((row->fails & ~kinds[i].ignores) == 0 && known &&
-            (c->of[i].row < 0 || figure < figure_of(made, &c->of[i], i))) {
-            c->of[i] = *row;
-        }
-    }
-}
-
+/* Rows come in the order of their price, so that of rows with equal figures the cheapest is chosen. */
 choice choice_make(const trials *t, const table *made, const choice_request *w) {
     choice c;
     for (int i = 0; i < CHOICES; i++) {
@@ -86,7 +75,14 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
     }
     for (int i = 0; i < made->count; i++) {
         const choice_row row = judged(t, w, made, i);
-        enter(&c, made, &row);
+        for (int k = 0; k < CHOICES; k++) {
+            const double figure = figure_of(made, &row, k);
+            const bool known = kinds[k].least != OF_FLASH || figure > 0.0;
+            if ((row.fails & ~kinds[k].ignores) == 0 && known &&
+                (c.of[k].row < 0 || figure < figure_of(made, &c.of[k], k))) {
+                c.of[k] = row;
+            }
+        }
     }
     return c;
 }

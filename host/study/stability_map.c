@@ -215,29 +215,26 @@ static void field(FILE *out, double value) {
     fprintf(out, ",%s", isfinite(value) ? number_shortest(value, text) : "");
 }
 
-static void write_row(FILE *out, const stability_map *m, uint64_t point) {
-    const map_cell *c = &m->cell[point];
-    const bool known = c->verdict != MAP_NONE;
-    char text[NUMBER_SIZE];
-    double value[2];
-    grid_values(m->grid, point, value);
-    fprintf(out, "%s", number_shortest(value[0], text));
-    field(out, value[1]);
-    fprintf(out, ",%s", map_verdicts[c->verdict].word);
-    field(out, known ? c->until_s : (double)NAN);
-    field(out, known ? c->end_s : (double)NAN);
-    field(out, c->left_over);
-    fputs("\r\n", out);
-}
-
 void map_csv(FILE *out, const stability_map *m) {
     const grid *g = m->grid;
     fprintf(out, "%s,%s,verdict,until,end,energy_residual\r\n", g->axes[0].column,
             g->axes[1].column);
     for (uint64_t i = 0; i < g->points; i++) {
-        if (m->cell[i].verdict != MAP_UNTRIED) {
-            write_row(out, m, i);
+        const map_cell *c = &m->cell[i];
+        const bool known = c->verdict != MAP_NONE;
+        char text[NUMBER_SIZE];
+        double value[2];
+        if (c->verdict == MAP_UNTRIED) {
+            continue;
         }
+        grid_values(g, i, value);
+        fprintf(out, "%s", number_shortest(value[0], text));
+        field(out, value[1]);
+        fprintf(out, ",%s", map_verdicts[c->verdict].word);
+        field(out, known ? c->until_s : (double)NAN);
+        field(out, known ? c->end_s : (double)NAN);
+        field(out, c->left_over);
+        fputs("\r\n", out);
     }
 }
 
