@@ -116,20 +116,27 @@ static const command_usage check_usage = {
     .why = {"every scene of every file can be run", NULL,
             "a file has an error, or cannot be read"}};
 
+static int derive_one(source_model *from, const mechanism *of, const scene *in) {
+    const load_request request = {.use = IMAGE_TO_RUN, .hints = in == NULL};
+    loaded made;
+    const int code = load(&made, from, of, in, NULL, &request);
+    unload(&made);
+    return code;
+}
+
 static int derive_all(source_model *from) {
     const whirl_model *m = from->model;
     int code = EXIT_DONE;
-    for (int i = 0; i < m->mechanism_count + m->scene_count; i++) {
-        const scene *in = i < m->mechanism_count ? NULL : m->scenes[i - m->mechanism_count];
-        const mechanism *of = in == NULL ? m->mechanisms[i] : in->mechanism;
-        const load_request request = {.use = IMAGE_TO_RUN, .hints = in == NULL};
-        loaded made;
-        const int one = load(&made, from, of, in, NULL, &request);
-        code = one > code ? one : code;
-        unload(&made);
-        if (one != EXIT_DONE && in == NULL) {
-            break; /* stops, because the mechanism's scenes would have the same error */
+    for (int i = 0; i < m->mechanism_count; i++) {
+        const int of = derive_one(from, m->mechanisms[i], NULL);
+        /* the scenes of a mechanism with an error would repeat the error */
+        for (int k = 0; k < m->scene_count && of == EXIT_DONE; k++) {
+            if (m->scenes[k]->mechanism == m->mechanisms[i]) {
+                const int one = derive_one(from, m->mechanisms[i], m->scenes[k]);
+                code = one > code ? one : code;
+            }
         }
+        code = of > code ? of : code;
     }
     return code;
 }

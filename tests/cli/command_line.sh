@@ -55,6 +55,12 @@ for file in "$scratch"/bad/*; do
 done >"$scratch/accepted"
 [ ! -s "$scratch/accepted" ]
 verdict $? "whirl check refuses what tests/bad has, by line and column" "$scratch/accepted"
+for i in 1 2 3 4 5; do # of these mechanisms, the first, third and fifth cannot be derived
+    printf "mechanism m$i\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + $((1 - i % 2))*y'^2)/2\nscene s$i { until 1 [s] }\n"
+done >"$scratch/five.whirl"
+"$whirl" check "$scratch/five.whirl" 2>&1 | grep -o '^.*five.whirl:[0-9]*:[0-9]*: error' | sed 's/.*whirl//' | tr '\n' ' ' >"$scratch/places"
+[ "$(cat "$scratch/places")" = ":3:12: error :13:12: error :23:12: error " ]
+verdict $? "whirl check goes on after a mechanism with an error, without its scenes" "$scratch/places"
 for form in OCTAVE Matlab matlab; do
     "$whirl" derive epicyclic --as octave >"$scratch/octave" && "$whirl" derive epicyclic --as $form | cmp -s - "$scratch/octave"
     verdict $? "--as $form is --as octave"
