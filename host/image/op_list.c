@@ -1,4 +1,4 @@
-/* op_list.c: entry of operations into a list, with sharing, folding and signs moved outwards. */
+/* op_list.c: entry of operations into a list. Equal operations are shared, constants folded, signs moved outwards. */
 #include "host/image/op_list.h"
 
 #include <math.h>

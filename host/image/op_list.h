@@ -114,12 +114,12 @@ typedef struct op {
     int a;
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
-    const int *turns; /* OP_PHASE, OP_CELL: [angles] integer factors, or NULL */
+    const int *turns; /* OP_PHASE, OP_CELL: [angles] integer factors of the angles, or NULL */
     /* OP_PHASE in records only: [angles] fractional factors of angles with all their turns, or NULL */
     const double *parts;
 } op;
 
-/* The tables of core/step/table.h. Coefficients apply to positions y in cells, without the scale that float needs. */
+/* The tables of core/step/table.h. The coefficients are not scaled: y is the distance from a cell's middle, in cells. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -155,9 +155,8 @@ int op_list_noise(op_list *t, uint32_t seed);
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
 /* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);
-/* Allocates zeroed tables. op_list_cell() enters the cell of the phase with the factors turns[t->angles],
- * op_list_look_up() the value of table `which` in that cell. */
-void op_list_tables_new(op_list *t, int count, int bits, int terms);
+void op_list_tables_new(op_list *t, int count, int bits, int terms); /* all entries are zero */
+/* Enters the lookup of a phase's cell. The phase is the sum of turns[k] times angle k. */
 int op_list_cell(op_list *t, const int *turns);
 int op_list_look_up(op_list *t, int cell, int which);
 int op_list_unary(op_list *t, op_code code, int a);
@@ -192,7 +191,7 @@ bool op_list_has_kinks(const op_list *t);
 
 /* Removes operations that no result uses, and renumbers the others. */
 void op_list_prune(op_list *t);
-/* Writes a + 2 b as (a + b) + b if the list has a + b, which saves a product, and removes operations then unused. */
+/* Saves products: writes a + 2 b as (a + b) + b if the list has a + b. Removes operations that become unused. */
 void op_list_share_sums(op_list *t);
 /* Reorders a finished list so that few values are live at a time, if that lowers op_list_carried(). No bit of the
  * results changes; phases stay in their order. */
@@ -221,7 +220,7 @@ typedef struct op_list_cost {
     int arithmetic; /* additions, subtractions, products, negations, comparisons */
     int divisions;
     int roots;
-    int waves;    /* number of sines and cosines; those of one phase count once */
+    int waves;    /* number of phases; sine and cosine of a phase count as one */
     int calls;    /* calls of core/function.h */
     int look_ups; /* in tables; the interpolation counts as arithmetic */
 } op_list_cost;

@@ -8,12 +8,12 @@
 #include "host/base/alloc.h"
 #include "host/number/gauss.h"
 
-/* === which operations may be multiplied together ============================================== */
+/* === the possible scalings ==================================================================== */
 /* A scaling multiplies each operation by a power of one factor x. The operands of a sum need equal exponents; a product
  * has the sum of its operands' exponents; a constant accepts any exponent; a result has exponent 0. The scalings are
  * the solutions of these linear equations. */
 
-/* The exponents are small whole numbers or halves, so a smaller value is zero. */
+/* An exponent below this size is round-off, because exponents are small whole numbers or halves. */
 #define NOTHING 1e-9
 
 typedef struct matrix {
@@ -54,7 +54,7 @@ static matrix kernel_of(matrix m) {
     return kernel;
 }
 
-/* Multiplying a leaf, a sine or a function costs a product: its value is raw. */
+/* A value is raw if multiplying it costs another product. */
 static bool is_raw(const op *o) {
     switch (op_rows[o->code].kind) {
     case OP_IS_LEAF:
@@ -74,9 +74,9 @@ static bool is_raw(const op *o) {
  * because each use of a raw value may have its own factor. */
 typedef struct unknowns {
     const op_list *of;
-    /* [2 * count] column of operand a (at 2 i) and b (at 2 i + 1) of operation i; 0: none */
+    /* [2 * count] column[2 i] is the column of operation i's operand a, column[2 i + 1] that of b; 0: none */
     int *column;
-    int *place; /* [columns] the operand of each column, as an index in column[] */
+    int *place; /* [columns] inverse of column[]: column[place[c]] == c for c >= of->count */
     int columns;
 } unknowns;
 
@@ -84,7 +84,7 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Does a product or quotient have a constant operand? It absorbs any factor, so the operation gives no equation. */
+/* Is this a product or quotient with a constant? The constant absorbs any factor, so there is no equation. */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -140,7 +140,7 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     } else if (o->code == OP_NEG || o->code == OP_ABS || o->code == OP_SQRT) {
         equation(u, m, o->code == OP_SQRT ? 2.0 : 1.0, i, 1.0, 0.0);
     } else {
-        equation(u, m, 1.0, i, 0.0, 0.0); /* the operands may not be multiplied */
+        equation(u, m, 1.0, i, 0.0, 0.0); /* the value of operation i keeps the factor 1 */
     }
 }
 
@@ -163,11 +163,11 @@ enum { PLACES = 64, SUBSETS_OF = 5 };
 /* The uses at which raw values are multiplied. All chosen uses of one raw value have the same factor. */
 typedef struct chosen {
     int column[PLACES];
-    int like[PLACES]; /* column of an earlier use of the same value, or this column */
+    int like[PLACES]; /* column of the first chosen use of the same value */
     int count;
 } chosen;
 
-/* Is e[] nonzero at every chosen use, and at some operation that has no constant to absorb the factor? */
+/* Does e[] multiply each chosen use, and also an operation that has no constant to absorb the factor? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -204,7 +204,8 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns conditions on combinations of all->rows: a raw value has one factor at its chosen uses, none at others. */
+/* Returns equations for the coefficients of a sum of the rows of `all`. In this sum, the chosen uses of a raw value
+ * have equal exponents, and other uses have exponent 0. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -296,7 +297,7 @@ typedef struct multiplied {
     const op_list *from;
     const double *times; /* [3 * from->count] */
     op_list *to;
-    /* [from->count] the operation in `to` for each of `from`; raw values are not multiplied */
+    /* [from->count] number of the operation in `to`, or -1 if each use enters it. Raw values have the factor 1. */
     int *made;
 } multiplied;
 
@@ -338,8 +339,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                           : m->times[operand];
 }
 
-/* Enters operation i, a product or quotient. A new constant corrects the factor of the result. C does not fix the order
- * of arguments, so no call has two arguments that enter operations. */
+/* Enters operation i, a product or quotient, and multiplies it by a constant: its factor becomes times[i]. C may
+ * evaluate arguments in any order, so only one argument of a call enters operations. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
@@ -384,14 +385,14 @@ static int make(const multiplied *m, int i) {
                                                         : times));
     case OP_IS_BINARY:
         if (o->code == OP_MUL || o->code == OP_DIV) {
-            /* a product with a constant is entered at each use */
+            /* each use enters its own product with a constant, because taken() changes the constant */
             const bool at_use = o->code == OP_MUL && is_constant(m->from, o->a);
             return at_use ? -1 : make_product(m, i);
         }
         return make_of_operands(m, o, o->code == OP_POW ? 1.0 : times);
     case OP_IS_CALL: return make_of_operands(m, o, 1.0);
     case OP_IS_CELL:
-    case OP_IS_LOOKUP: break; /* a list with tables keeps its constants */
+    case OP_IS_LOOKUP: break; /* lists with tables are never scaled */
     }
     abort();
 }
@@ -475,11 +476,10 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* Weight of a result such as a free carriage's acceleration: the list does not read what it changes, so its error cannot
- * grow from step to step. */
+/* Weight of a result that changes a component that the list does not read: its error affects no later result. */
 #define UNREAD (1.0 / 64.0)
 
-/* Gives weight 1 to a result that changes a component that the list reads, else UNREAD. Angles come before reals. */
+/* The weight of result i is 1 if the list reads component i, which that result changes; else it is UNREAD. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -544,7 +544,7 @@ enum {
     THREES = 3,
     SEVENS = 1,
     REALS = 512,      /* number of tried factors between one and two */
-    VANISHING = 24,   /* number of tried factors that turn a constant into one */
+    VANISHING = 24,   /* number of tried factors that make a constant 1 or -1 */
     ROUNDS = 3,       /* most rounds; each starts from the result of the previous round */
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
@@ -555,7 +555,7 @@ enum {
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 
-/* The best list so far. */
+/* `bias` and `operations` belong to the best list of all rounds, or to the first list. */
 typedef struct scaling_search {
     const op_list *like;
     const op_list *from; /* the last round's list */
@@ -579,7 +579,7 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* A clearly lower bias may take more operations, a lower bias no more, an equal bias must take fewer. */
+/* A clearly lower bias may cost operations; a lower bias may not; an equal or hardly lower bias must save some. */
 static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -612,8 +612,8 @@ static void try_number(scaling_search *s, const double *exponent, double x) {
     op_list_free(made);
 }
 
-/* Tries products of small primes, the simplest first: fives make a decimal a fraction over a power of two, threes make
- * a third whole. Factors of two change nothing. */
+/* Tries products of small primes, the simplest first. Powers of 5 make decimals exact in float; 3 makes thirds exact.
+ * A factor 2 would not change the round-off. */
 static void try_primes(scaling_search *s, const double *exponent) {
     for (int all = 1; all <= FIVES + THREES + SEVENS; all++) {
         for (int fives = -FIVES; fives <= FIVES; fives++) {
@@ -630,7 +630,7 @@ static void try_primes(scaling_search *s, const double *exponent) {
     }
 }
 
-/* Tries numbers that turn the constant of a product into one. */
+/* Tries numbers that make the constant of a product 1 or -1. */
 static void try_vanishing(scaling_search *s, const double *exponent) {
     int tried = 0;
     double number;
@@ -664,7 +664,7 @@ static void search_round(scaling_search *s) {
             const double *exponent = f.exponent + (size_t)k * (size_t)f.length;
             if (pass == 0) {
                 try_vanishing(s, exponent);
-                /* does an arbitrary factor, which turns no constant into one, cost too many operations? */
+                /* has the list few enough operations with an arbitrary factor, which makes no constant 1? */
                 op_list *made = scaled_by(s, exponent, 1.2345678901);
                 can[k] = op_list_operations(made) <= s->most;
                 op_list_free(made);
