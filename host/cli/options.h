@@ -67,9 +67,9 @@ typedef enum option_group {
 /* A command's help text. */
 typedef struct command_usage {
     const char *head;
-    unsigned groups;  /* groups of options in the help text */
-    bool described;   /* a line for each option; else only words, and a reference to `whirl run` */
-    const char *tail; /* or NULL */
+    unsigned groups;        /* groups of options in the help text */
+    bool described;         /* has a line for each option, not only the words of the options */
+    const char *tail;       /* or NULL */
     const char *why[EXITS]; /* meaning of each exit status (host/base/exit.h); all NULL: omitted */
 } command_usage;
 
@@ -99,7 +99,7 @@ bool options_time(const char *command, const char *option, const char *text, con
 
 typedef struct common_options {
     overrides changes; /* --set, --start, --with, --without, --step, --until, --name */
-    char **owned;      /* names of comma-separated lists */
+    char **owned;      /* [owned_count] texts in `changes` that options_forget() frees */
     int owned_count;
     image_settings integration; /* --method, --compensated, --stabilized, --angles, --matrix, ... */
     const engine_kind *number;  /* --number: the number type */
@@ -138,7 +138,7 @@ int options_choose(const char *command, const char *what, const char *value, con
 
 /* === the words of a command =================================================================== */
 
-/* An option's file. All files of a command must differ, and Whirl must be able to write its outputs. */
+/* An option's file. An output must differ from all other files of the command, and Whirl must be able to write it. */
 typedef enum own_file {
     FILE_NONE,
     FILE_READ,
@@ -147,7 +147,7 @@ typedef enum own_file {
     FILE_DRAWN         /* a picture, drawn by gnuplot after the work */
 } own_file;
 
-/* Can the file, or NULL, be written? If not, reports the reason. */
+/* Checks a file that is written after the work: returns false (reported) if it cannot be written. NULL is allowed. */
 bool options_can_write(const char *command, const char *option, own_file kind, const char *file);
 
 /* An option of one command. Exactly one of text, number, strict and flag is set. */
@@ -191,12 +191,12 @@ typedef struct target_reader {
     int (*work)(void *options);
 } target_reader;
 
-/* Takes all options, and checks the files that they name. *target: the target (the last of `many`), or NULL.
+/* Takes all options, and checks the files that they name. *target: the last target, or NULL if none is given.
  * Returns false after an error (reported). `common` may be NULL if the command has no common options. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* load() of the named target. Without a name: the file's only scene, or else, unless request.scene, its only mechanism. */
+/* load() of the named target. Without a name: the only scene, or else, if !request.scene, the only mechanism. */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 

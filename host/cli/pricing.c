@@ -125,7 +125,7 @@ const cost_board *pricing_board(const char *command, const char *value) {
 /* Limit of the operations of all trials without --effort. */
 #define EFFORT 1e9
 
-/* Reads --error, in the dimension of its quantity or of --of. An unknown quantity is reported later. */
+/* Reads --error, the error of the quantity that --error X=0.1mm or --of names. An unknown one is reported later. */
 static bool read_error(pricing *p) {
     const char *text = p->value[PRICING_ERROR];
     const char *command = p->command;
@@ -253,7 +253,7 @@ int pricing_open(pricing *p) {
     p->changes = p->common.changes;
     p->changes.balance = p->balance;
     overrides asked = p->changes;
-    asked.until = NULL; /* printed command lines get an --until each */
+    asked.until = NULL; /* each printed command line gets its own --until */
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(p->typed);
     p->board = pricing_board(p->command, p->value[PRICING_BOARD]);
@@ -496,8 +496,8 @@ static bool read_limits(const pricing *p, choice_request *w) {
            (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
 }
 
-/* Spaces the records by the first of 1, 2, 5, 10, ... periods of --rate that gives at most 2.5 PRICING_RECORDS. Reports
- * a horizon shorter than a period, and a rate that is too high. */
+/* With --rate, the interval between records is 1, 2, 5, 10, ... periods: the first that gives at most
+ * 2.5 * PRICING_RECORDS records. Returns false if the rate is too high, or a period exceeds the horizon (reported). */
 static bool space_records(const pricing *p, choice_request *w, whole_ratio *spacing) {
     w->table.periods = 1;
     if (!(w->table.rate_Hz > 0.0)) {

@@ -69,7 +69,7 @@ typedef struct pricing {
     const char *command; /* "price" */
     common_options common;
     const char *typed;                  /* the target as typed */
-    const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given, and for --vary */
+    const char *value[PRICING_OPTIONS]; /* as typed, or NULL; `vary` has the values of --vary */
     const char **vary;                  /* [number of command-line words] */
     int vary_count;
     bool balance; /* keep a ledger if the run has contacts */
@@ -81,10 +81,10 @@ typedef struct pricing {
     grid grid;
     pricing_scene *scene;
     const cost_board *board;
-    const char *quantity; /* name in --of or --error X=0.1mm; NULL: the worst component */
+    const char *quantity; /* named by --of or --error X=0.1mm; NULL: the worst coordinate or rate */
     char *named;          /* the name in --error, owned */
     double error_si;
-    double until_s; /* the horizon, or the scene's end */
+    double until_s; /* --horizon, or without it the end of the run */
     double effort;  /* most operations of all trials */
     bool method[WH_METHODS];
     char *words;  /* changes of the scene, as typed */
@@ -99,15 +99,15 @@ int pricing_open(pricing *p);
 void pricing_close(pricing *p);
 /* The board of --board. Returns NULL (reported) if it is unknown or has no prices. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* Reads a positive quantity in SI, in the dimension of the quantity `name`, or, without a name, in the `wanted` one.
- * Returns false after an error (reported). */
+/* Reads a positive *value, in SI. If `name` is NULL, its dimension is `wanted`; else it is that of this output,
+ * coordinate or rate. Returns false after an error (reported). */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
 /* Computes the references at records of this spacing. Returns an exit status. */
 int pricing_begin(pricing *p, whole_ratio spacing);
 /* Records of `whirl price` until the horizon: at least this number, at most 2.5 times it. */
 #define PRICING_RECORDS 1000.0
-/* Chooses a spacing of 1, 2 or 5 times a power of ten, with `count` to 2.5 `count` records. */
+/* The interval between records: 1, 2 or 5 times a power of ten, in s. It gives `count` to 2.5 * `count` records. */
 whole_ratio pricing_spacing(double until_s, double count);
 
 #endif

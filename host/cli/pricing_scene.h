@@ -29,7 +29,7 @@ typedef struct pricing_scene {
     trial_source source;
 } pricing_scene;
 
-/* PRICING_PLACES_MAX: most points of the grid. PRICING_PLACES: values of a range without a count. */
+/* PRICING_PLACES_MAX: most points of the grid. PRICING_PLACES: values of a range such as a=1..2 (a=1..2:5 has 5). */
 enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
@@ -42,7 +42,7 @@ void pricing_scene_free(pricing_scene *p); /* NULL is allowed */
 
 /* A word, quoted for a shell if necessary; to be freed. */
 char *pricing_quoted(const char *word);
-/* These changes as options, each after a blank; or as the label "m=2, with drag", without step and end. To be freed. */
+/* The changes as options, with a blank before each; if as_label, as in "m=2, with drag" instead. To be freed. */
 char *pricing_words(const overrides *c, bool as_label);
 
 #endif

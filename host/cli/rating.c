@@ -34,7 +34,7 @@ static void say_none(FILE *out, const rating_request *w, const char *why, const 
 
 /* RECORDS_MOST: most records of the run. SPACING: a record's interval is a multiple of this many steps. */
 enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
-/* Steps computed per step of the run: at double, equal and half step in the rows; at 1/4 and 1/2 in the reference. */
+/* Steps computed for each step of the run. The rows use 2, 1 and 1/2 times its length; the reference, 1/4 and 1/2. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
@@ -117,7 +117,7 @@ static void print_rows(FILE *out, const rating_request *w, const pricing_scene *
     trial_end(&t);
 }
 
-/* Why a run of this many trusted steps has no rows, or NULL. *command: the command that shows them, or NULL. */
+/* Returns NULL if the rows can be shown, else the reason. *command is then the command that shows them, or NULL. */
 static const char *why_none(const rating_request *w, const setting *s,
                             const simulation_trust *trust, double steps, const char **command) {
     const bool on_board = strcmp(w->board->name, "host") != 0;
@@ -125,7 +125,7 @@ static const char *why_none(const rating_request *w, const setting *s,
     if (trust->still) {
         return "nothing moves";
     }
-    if (w->image->contacts > 0) { /* only `whirl choose` counts events, in emulators */
+    if (w->image->contacts > 0) { /* `whirl choose` counts the cost of events in an emulator */
         *command = on_board ? "choose --error 1e-3" : "price";
         return "events make the cost of a step depend on the motion";
     }
@@ -171,11 +171,11 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* A pace is a tried step. PACES: their number. The first PACES_LONG are multiples of a record's interval; the others
- * are its decimal fractions, five a decade. */
+/* A pace is a tried step size. The first PACES_LONG paces are multiples of the interval between records. The others are
+ * this interval divided by 1, 2, 4, 5, 8, 10, 20, ... */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Limit on the operations of all tries together. Their comparison with the reference takes the same time again. */
+/* Limit on the operations of all tries: about half a second. Comparing them with the reference takes as long. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
 /* From long to short steps. */
@@ -192,8 +192,8 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Reports that no pace satisfies the error. `least`: the smallest error. `rounds`: round-off limits this error. `slow`:
- * the first pace beyond the limit of operations, which would take `operations`; or NULL. */
+/* Reports that no pace satisfies --error. `least`: the smallest error found. `rounds`: it is mainly round-off. `slow`:
+ * NULL, or the first pace that was not tried, because it would raise the sum of all tries to `operations`. */
 static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
                         const deviation_pace *slow, double operations) {
     char text[NUMBER_SIZE];
@@ -219,14 +219,14 @@ static void say_no_pace(const trials *t, const setting *s, double least, bool ro
             s->number == &engine_float ? ", or --number double" : "");
 }
 
-/* Returns the first pace that satisfies the error, or -1 (reported). *longest: that pace was tried first. */
+/* Returns the number of the first pace that satisfies --error, or -1 (reported). *longest: no longer pace was tried. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = (double)INFINITY;
     double operations = 0.0; /* of all tries */
     bool slow = false;
     int falls = 0; /* tries with an error below 0.7 times the least error before */
-    int stuck = 0; /* tries since the last fall; two, after three falls, show round-off */
+    int stuck = 0; /* tries since the last fall. If falls >= 3, two such tries show round-off. */
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
         *pace = pace_at(i);
@@ -273,7 +273,7 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     return warned;
 }
 
-/* Finds the first of six paces after `at` that satisfies the error without a warning; else keeps *pace. */
+/* If *pace has warnings, replaces it by the first of six shorter ones that satisfies --error without warnings. */
 static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
                           trial_result *r) {
     enum { MORE = 6 };

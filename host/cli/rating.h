@@ -25,8 +25,8 @@ typedef struct rating_request {
 /* Prints the rows, or why there are none. */
 void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust);
 
-/* The largest step of a run that satisfies `--error X=0.1mm`: *step, and its description *chosen, both to be freed.
- * Opens the target like source_open(). Returns an exit status. */
+/* Opens the target like source_open(), and chooses the step for `--error X=0.1mm`. The caller frees *step and its
+ * description *chosen. Returns an exit status. */
 int rating_choose(const common_options *common, const char *target, const char *error,
                   source_model *from, char **step, char **chosen);
 

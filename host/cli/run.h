@@ -25,8 +25,8 @@
         .word = "--ylabel", .text = &(choice).ylabel \
     }
 
-/* Like command_run() with these words and --quiet, but without a picture: *taken gets the data of one, decimated
- * for this choice. Call plot_run_close() in any case. */
+/* Like command_run() with these words and --quiet, but draws no picture. *taken gets the decimated data
+ * for a picture of this choice of curves. Call plot_run_close() in any case. */
 int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
 
 #endif

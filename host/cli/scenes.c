@@ -1,4 +1,4 @@
-/* scenes.c: for the project's build: every built-in scene, or every scene of some files, as C, with its state hash. */
+/* scenes.c: the C code and state hashes of all built-in scenes, or of the scenes of some files, for Whirl's build. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 /* Called for each scene. Returns an exit status. */
 typedef int scene_visitor(void *context, const char *file, const loaded *made);
 
-/* Visits every scene of an opened source, also after a refused one. Returns an exit status. */
+/* Visits every scene of an opened source, even if one before it is refused. Returns the highest exit status. */
 static int each_scene_of(source_model *from, scene_visitor *visit, void *context) {
     static const load_request request = {
         .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
