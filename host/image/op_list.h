@@ -119,7 +119,7 @@ typedef struct op {
     const double *parts;
 } op;
 
-/* The tables of core/step/table.h. The coefficients are not scaled: y is the distance from a cell's middle, in cells. */
+/* The tables of core/step/table.h. Coefficients are not scaled: y is the distance from a cell's middle, in cells. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
