@@ -30,17 +30,17 @@ static void renumber(op_list *t, const int *order, const int *number, int count)
 
 /* === dependencies between operations ========================================================== */
 
-/* Single-precision registers of an Arm or RISC-V FPU, 32, less those of the surrounding step. */
+/* An Arm or RISC-V FPU has 32 single-precision registers. The step around the list needs the others. */
 enum { OP_LIST_REGISTERS = 20 };
 
-/* The dependencies of operations. A phase depends on the previous phase, because a list numbers its waves in order. */
+/* Which operations must precede which. Phases keep their order, because it numbers the waves of a list. */
 typedef struct op_list_needs {
     const op_list *t;
     struct arena *memory; /* owner of all working memory, also of registers and schedules */
     int *before;          /* [t->count] for a phase, the previous phase; else -1 */
     bool *given;          /* [t->count] needs no computation */
-    int *first;           /* [t->count + 1] index in user[] of the first user; users are in order */
-    int *user;
+    int *first;           /* [t->count + 1] i is used by user[first[i]] .. user[first[i + 1] - 1] */
+    int *user;            /* ascending for each operation */
 } op_list_needs;
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
@@ -54,8 +54,7 @@ static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED
     return count;
 }
 
-/* Finds the different values that operation i reads from registers, without constants and phases. Returns their
- * number. */
+/* Finds the different values that operation i reads from registers. Returns their number. */
 static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) {
     int operand[TAKEN_MOST];
     const int operands = op_list_operands(&t->ops[i], operand);
@@ -116,8 +115,8 @@ typedef struct registers {
     int carried;  /* loads and stores so far */
 } registers;
 
-/* Gives value v a register. If none is free, the value whose next use is latest loses its register; an operand of the
- * current operation is in use, and so never does. */
+/* Gives value v a register. If none is free, the value whose next use is latest loses its register. The operands of the
+ * current operation keep theirs, because their next use is now. */
 static void hold(registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
@@ -134,8 +133,8 @@ static void hold(registers *r, int v) {
     r->value[r->count++] = v;
 }
 
-/* Computes next[ops], the position of each value's first use. Returns after[TAKEN_MOST * at + k]: the position at which
- * operand k of position `at` is used next. */
+/* Sets next[v] to the position in `sequence` of the first use of each value v. Returns the later uses: the operation at
+ * position `at` reads the value found[k] (op_list_taken()), whose next use is at after[TAKEN_MOST * at + k]. */
 static int *uses_after(const op_list_needs *n, const int *sequence, int count, int *next) {
     const op_list *t = n->t;
     int *after = room(n, TAKEN_MOST * sizeof *after);
@@ -213,24 +212,23 @@ int op_list_carried(const op_list *t) {
 /* === order of a list ========================================================================== */
 /* Reorders a finished list so that few values are live. In the order of entry, a whole matrix is computed before its
  * first row is eliminated. A large list then has more live values than a processor has registers, and a third of the
- * instructions move them to memory and back. The new order takes the operation that is the last use of the most values.
- * Ties go to the first in order of entry, or to the operation whose value is used up first: two orders. Given values
- * (the state, the sine-cosine pairs) are read at their first use. The rule looks only one operation ahead, so the best
- * of both orders and the order of entry is taken, by loads and stores. A list whose values fit into registers keeps its
- * order. */
+ * instructions move them to memory and back. A new order always continues with the operation that is the last use of
+ * the most values. Two rules for ties (first_of) make two new orders. Neither looks further ahead, and the order of
+ * entry can be better. Whirl takes the one of the three with the fewest loads and stores. Given values (the state, the
+ * sine-cosine pairs) are loaded at their first use. */
 
 typedef struct schedule {
     const op_list_needs *needs;
     int *waits; /* [ops] dependencies not yet computed */
-    int *uses;  /* [ops] remaining users; a result counts as two more */
-    int *ends;  /* [ops] number of values that the operation is the last to use */
+    int *uses;  /* [ops] remaining users; 2 more for a result, so that its life never ends */
+    int *ends;  /* [ops] number of values whose last remaining user is the operation */
     int *until; /* [ops] last user of the operation's value */
     int *ready; /* operations without pending dependencies, unordered */
     int count;  /* number of ready operations */
     bool *done; /* [ops] */
 } schedule;
 
-/* Value v has one user less. If one remains, the life of v ends with that user. */
+/* Value v has one user less. If only one remains, counts v in the ends[] of that user. */
 static void use_up(schedule *s, int v) {
     const op_list_needs *n = s->needs;
     if (--s->uses[v] != 1) {
@@ -273,7 +271,7 @@ static schedule schedule_of(const op_list_needs *n) {
         s.until[v] = n->first[v] < n->first[v + 1] ? n->user[n->first[v + 1] - 1] : v;
     }
     for (int i = 0; i < t->results; i++) {
-        s.uses[t->result[i]] += 2; /* results are live to the end */
+        s.uses[t->result[i]] += 2;
         s.until[t->result[i]] = t->count;
     }
     for (int v = 0; v < t->count; v++) {
@@ -283,7 +281,7 @@ static schedule schedule_of(const op_list_needs *n) {
     return s;
 }
 
-/* The rule for ties: the first in order of entry, or the operation whose value is used up first. */
+/* The rule for ties: AS_ENTERED takes the earliest operation of the list; SOONEST_DONE the least until[]. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
 static bool leads(const schedule *s, first_of way, int i, int j) {
@@ -393,7 +391,7 @@ void op_list_order(op_list *t) {
 /* Replaces a + 2 b by (a + b) + b if the list has a + b, which saves a product. Kinetic energies produce such pairs: a
  * chain of two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 
-/* Returns b if operation i is 2 b with a single user; else -1. */
+/* Returns b if operation i is 2 b and is used only once; else -1. */
 static int doubled(const op_list *t, const int *uses, int i) {
     const op *o = &t->ops[i];
     double two;
@@ -406,7 +404,8 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* If operation i is a + 2 b, a - 2 b or 2 b - a: finds *half, the same with b in place of 2 b. *part: b. Else false. */
+/* If operation i is a + 2 b, a - 2 b or 2 b - a, finds b (*part) and an operation a + b, a - b or b - a (*half).
+ * Returns false if the list has no such operation. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);
@@ -455,7 +454,7 @@ void op_list_share_sums(op_list *t) {
     }
     free(uses);
     if (shared) {
-        reorder(t, NULL, NULL, 0); /* *half may come after the operation that now uses it */
+        reorder(t, NULL, NULL, 0); /* a changed operation may use a later one */
         op_list_prune(t);
     }
 }

@@ -25,9 +25,9 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* Letters and UTF-8 are literal. Other characters are octal codes, which cannot form a `command`, a @macro, an escape
- * or a quote. Digits are octal, too, because they could extend a code. Control characters become blanks,
- * which XML allows. XML forbids "]]>", and gnuplot does not escape >, so an invisible character (U+2060) splits it. */
+/* Letters and UTF-8 are literal. Other characters become octal codes: they cannot form a `command`, a @macro, an escape
+ * or a quote, and a digit cannot extend the code before it. Control characters become blanks, which XML allows. XML
+ * forbids "]]>", and gnuplot does not escape >, so an invisible character (U+2060) is put before this >. */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;
@@ -49,7 +49,7 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
-/* Shows gnuplot's messages. If they are about an axis without a range, shows the reason instead: no points. */
+/* Shows gnuplot's messages. If an axis has no range, shows instead that a panel has no points, which is the reason. */
 static void show_said(FILE *said) {
     char *text = NULL;
     size_t size = 0;

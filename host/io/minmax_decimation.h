@@ -17,11 +17,11 @@ typedef struct decimation decimation;
 decimation *decimation_new(int columns, bool samples);
 void decimation_free(decimation *v); /* NULL is allowed */
 
-/* Adds row[columns] of the next step. Buckets of several steps drop non-finite values if they have finite ones. */
+/* Adds row[columns] of the next step. A bucket ignores a column's non-finite values if it also has finite ones. */
 void decimation_enter(decimation *v, const double *row);
 
-/* The rows to draw: one for a bucket of one step, else two, with each column's least and greatest value in order of
- * time. For a rising column, such as the time, these are the bucket's first and last. The caller frees the result. */
+/* The rows to draw. A bucket of one step, or with `samples`, is one row. Others are two rows, with the extremes of each
+ * column in order of time: for a rising column, such as the time, its first and last value. The caller frees them. */
 double *decimation_rows(const decimation *v, int *rows);
 
 #endif

@@ -178,7 +178,7 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
     return list == NULL;
 }
 
-/* Reports more labels than axes, and returns false. */
+/* Is there at most one label for each panel? If not, reports it. */
 static bool labels_fit(const panels *p, const char *command, const char *labels) {
     int more = 0;
     for (const char *at = labels; at != NULL && *at != '\0'; at++) {
@@ -337,7 +337,7 @@ static bool write_beside(const char *csv, const char *text) {
     char *file = alloc_words("%s.toml", csv);
     const bool good = atomic_file_print(file, "%s", text);
     if (!good) {
-        atomic_file_not_whole(); /* an unwritable file is bad input only before a run */
+        atomic_file_not_whole(); /* after a run, the exit status is a failure, not bad input */
     }
     free(file);
     return good;
@@ -393,7 +393,7 @@ static char *string_at(const char **at) {
     }
     for (; **at != '"' && **at != '\0'; (*at)++) {
         if (**at == '\\' && (*at)[1] == 'u' && strlen(*at) > 6) {
-            *at += 5; /* a control character becomes a blank */
+            *at += 5; /* skip \uXXXX, a control character, which becomes a blank */
             made[length++] = ' ';
             continue;
         }
@@ -512,7 +512,7 @@ static double number_of(const char *field) {
     return end == field || end[strspn(end, " ")] != '\0' ? (double)NAN : value;
 }
 
-/* Do other programs write NaN like this? */
+/* Is the field a spelling of NaN that some program writes? */
 static bool is_nan(const char *field) {
     return strcasecmp(field + (field[0] == '-'), "nan") == 0 || strcmp(field, "NA") == 0;
 }
@@ -525,7 +525,7 @@ static void name_columns(plot_run *run, char *line) {
     }
 }
 
-/* Empty cells, and missing ones at a row's end, become NaN. */
+/* A cell that is empty, or missing at the end of a row, becomes NaN. */
 static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, plot_run *run) {
     int64_t most = 0;
     while (next_line(from, line, size)) {
@@ -603,17 +603,17 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
 
 /* === the plot ================================================================================= */
 
-/* Left margin of all panels in characters, so that their x axes align: for tics such as -2.5x10^-300, and a label. */
+/* In characters: room for tics such as -2.5x10^-300 and a label. All panels have it, so that their x axes align. */
 #define LEFT_MARGIN 15
 #define RIGHT_MARGIN 4
 #define AXIS_MOST 26
 #define TEXT_MOST 60
 
-/* In pixels: a panel with a one-line legend, a further line of the legend, the legend's width, a sample's width. */
+/* In pixels. PANEL_HEIGHT has room for one line of legend; each further line adds KEY_LINE. The others are widths. */
 enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
 #define KEY_LETTER 8.5
 
-/* Writes gnuplot's enhanced text, with escapes. `raised`: the exponent after ^ is raised, such as 1/2 in "m^(1/2)". */
+/* Writes gnuplot's enhanced text, with escapes. If `raised`, exponents such as 1/2 in "m^(1/2)" are superscripts. */
 static void write_part(FILE *to, const char *text, bool raised) {
     for (const char *at = text; *at != '\0'; at++) {
         if (*at != '^' || !raised) {
@@ -683,7 +683,7 @@ static extent quantity_extent(const panels *p, const plot_run *runs, const int *
     return e;
 }
 
-/* A panel's quantities (-1: all), separated by commas; if longer than `most`, their number. The caller frees it. */
+/* Lists a panel's quantities (panel -1: all), or says their number if the list is longer than `most`. To be freed. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names;
     size_t length;
@@ -702,7 +702,8 @@ static char *names_of(const panels *p, int panel, size_t most) {
     return names;
 }
 
-/* One run: the quantity's name, with its description if that fits. Several runs: the run's label. */
+/* For one run, the quantity's name, and its description if that fits. For several runs, the run's label, and the
+ * quantity's name if the panel has several quantities. */
 static char *legend_of(const panels *p, const panels_quantity *q, int k, const plot_run *run) {
     const char *text = run->column[q->column[k]].text;
     int together = 0; /* quantities of the panel */
@@ -737,7 +738,7 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* The entry for the shade, or "". Several runs need a short one: the longest entry sets the width of all columns. */
+/* The legend's entry for the shade, or "". Several runs need a short entry, because it widens all columns. */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? alloc_words("%s", "")
@@ -774,7 +775,7 @@ static int key_lines(const panels *p, const plot_run *runs, int panel, bool time
     return (entries + columns - 1) / columns;
 }
 
-/* Writes the first panel's legend for the shade and for events. */
+/* Adds the shade and the events to the legend of the first panel. */
 static void write_signs(FILE *to, const plot_run *runs, int count) {
     char *trusted = trust_sign(runs, count);
     if (trusted[0] != '\0') {

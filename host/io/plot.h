@@ -27,15 +27,15 @@ typedef struct plot_run {
     int marks;
 } plot_run;
 
-/* Opens a run without data and names of columns. Texts are copied; `unit` may be NULL. */
+/* Opens a run. It has no data yet, and its columns have no names. Texts are copied; `unit` may be NULL. */
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns);
 void plot_run_name(plot_run *run, int column, const char *name, const char *unit, const char *text);
 /* Names a column by its heading, NAME or NAME [UNIT]. The time is in seconds. */
 void plot_run_head(plot_run *run, int column, const char *heading);
 void plot_run_close(plot_run *run);
 
-/* Reads the CSV file, and CSV.toml if it exists. Fields that are not numbers are NaN. Returns false after an error
- * (reported). Call plot_run_close() in any case. */
+/* Reads the CSV file, and CSV.toml if it exists. Empty fields become NaN; a text that is neither a number nor NaN is an
+ * error. Returns false after an error (reported). Call plot_run_close() in any case. */
 bool plot_run_read(const char *command, const char *csv, plot_run *run);
 
 /* Writes CSV.toml about the run: lines `facts` first, `tables` last. Returns false after an error (reported). */
@@ -53,13 +53,13 @@ char *plot_run_quoted(const char *text);
 
 enum { PLOT_PANELS = 16 };
 
-/* All zero: every coordinate and output, without rates, a panel for each unit. */
+/* If all members are zero, the plot shows every coordinate and output, but no rates. Each unit has its own panel. */
 typedef struct plot_choice {
     const char *x;                  /* a quantity; NULL: column 0 */
-    const char *y;                  /* quantities, a panel for each unit; or NULL */
+    const char *y;                  /* quantities; each unit has its own panel */
     const char *panel[PLOT_PANELS]; /* quantities that share a panel */
     int panels;
-    const char *legend; /* labels of the runs; or NULL */
+    const char *legend; /* labels of the runs; NULL: their own */
     const char *title;
     const char *xlabel; /* NULL: quantity and unit */
     const char *ylabel; /* labels of the panels; NULL: quantities and unit */
@@ -72,10 +72,9 @@ bool plot_is_path(const plot_choice *choice);
 
 enum { PANELS_QUANTITIES = 256 };
 
-/* A drawn quantity, with its column in each run, or -1. */
 typedef struct panels_quantity {
     char *name;  /* as displayed: theta' */
-    int *column; /* [runs] */
+    int *column; /* [runs] its column in each run; -1: the run has none */
     int panel;
 } panels_quantity;
 
@@ -113,8 +112,9 @@ typedef struct figure_data {
 /* Finds the next line from *at on that begins with `word` and a blank. Returns its rest, to be freed, or NULL. */
 char *figure_line(const char **at, const char *word);
 
-/* Draws the figure. `varied`: options that change its runs, or "". They appear in the title, and replace the caption,
- * which describes the original. Returns false (reported) if the description (`where`) is wrong, or drawing fails. */
+/* Draws the figure. `varied`: options that changed its runs, or "". If there are any, the title names them, and they
+ * replace the caption, which describes the original runs. Returns false (reported) if the description (`where`) is
+ * wrong, or drawing fails. */
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied);
 
