@@ -8,7 +8,7 @@
 /* Returns the relative error that rounding the constants to float causes in a finished list's results. Operations are
  * in double. The reference is `like`: the same list, or one with equal results. A result's absolute errors at
  * artificial states are added, and divided by the sum of its absolute reference values. The return value is the
- * weighted root mean square of these quotients over the results and three sizes of rates. NaN: no result can be compared. */
+ * weighted root mean square of these quotients over results and three sizes of rates. NaN: nothing can be compared. */
 double op_list_bias(const op_list *t, const op_list *like);
 
 /* Returns the allowed number of additional operations: one, and one for each forty operations. */
