@@ -36,7 +36,7 @@ static const double *law_of(const apart *a, int h) {
 }
 static const double *row_of(const apart *a, int h) { return law_of(a, h) + WH_LAW_ROWS; }
 
-static void look(apart *a) { (void)state_list_at(&a->forces, 0.0, a->x, a->x + a->im->angles); }
+static void look(apart *a) { (void)state_list_at(&a->forces, a->x, a->x + a->im->angles); }
 
 static double along(const apart *a, int h, const double *x) {
     double sum = 0.0;
@@ -272,14 +272,6 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-/* The larger of a hold's error and rate, each divided by its scale terms(); 0: the start satisfies the hold. */
-static double part_of(const apart *a, int h) {
-    const double off = fabs(off_zero(a, h));
-    const double speed = fabs(moving(a, h));
-    return number_most(off > 0.0 ? off / terms(a, h, a->x, true) : 0.0,
-                       speed > 0.0 ? speed / terms(a, h, rates(a), false) : 0.0);
-}
-
 double apart_say(FILE *out, const char *who, const image *im) {
     double part = 0.0;
     if (im->list[IMAGE_FORCES] == NULL || im->list[IMAGE_SIGNALS] == NULL) {
@@ -295,7 +287,7 @@ double apart_say(FILE *out, const char *who, const image *im) {
         soon[i] = a.x[i] + SOON * im->step_s * a.x[a.n + i];
         soon[a.n + i] = a.x[a.n + i];
     }
-    const double *signal = state_list_at(&signals, 0.0, soon, soon + im->angles);
+    const double *signal = state_list_at(&signals, soon, soon + im->angles);
     for (int k = 0; k < im->forced; k++) {
         if (im->contact[k].kind == WH_HOLD && signal[2 * k] > 0.0) {
             a.hold[a.holds++] = k;
@@ -310,7 +302,10 @@ double apart_say(FILE *out, const char *who, const image *im) {
             a.closes = a.closes || off_zero(&a, h) != 0.0;
         }
         for (int h = 0; h < a.holds; h++) {
-            part = number_most(part, part_of(&a, h));
+            const double off = fabs(off_zero(&a, h));
+            const double speed = fabs(moving(&a, h));
+            part = number_most(part, off > 0.0 ? off / terms(&a, h, a.x, true) : 0.0);
+            part = number_most(part, speed > 0.0 ? speed / terms(&a, h, rates(&a), false) : 0.0);
         }
         if (part > 0.0 && out != NULL) {
             say(out, who, &a);

@@ -80,10 +80,9 @@ double books_swing_J(const books *b) {
 #define SUMS_OF_A_STEP 8.0   /* assumed number of roundings of a ledger entry in one step */
 #define SLOPE_SHARE 0x1p-20  /* a component is changed by this part to measure the energy's slope */
 
-static void evaluate_now(const books *b, const double *angle_rad, const double *real,
-                         double time_s) {
+static void evaluate_now(const books *b, const double *state) {
     const image *im = b->image;
-    evaluator_run(b->evaluator, time_s, angle_rad, real, real + (im->coordinates - im->angles),
+    evaluator_run(b->evaluator, b->time_s, state, state + im->angles, state + im->coordinates,
                   b->input, b->value);
     for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
         b->value[i] = number_shown(b->value[i]); /* -0 becomes 0 */
@@ -120,25 +119,21 @@ static state_rounding rounding_of_component(const image *im, const engine_kind *
 /* The largest energy change if each component of the state is rounded once; 0 if it is not finite. */
 static double state_rounding_J(const books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
-    double angle_rad[IMAGE_COMPONENTS_MAX];
-    double real[2 * IMAGE_COMPONENTS_MAX];
+    double state[3 * IMAGE_COMPONENTS_MAX];
     double sum = 0.0;
-    memcpy(angle_rad, b->angle_rad, sizeof angle_rad);
-    memcpy(real, b->real, sizeof real);
+    memcpy(state, b->state, sizeof state);
     for (int i = 0; i < im->angles + im->reals; i++) {
-        double *at = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
-        const double kept = *at;
-        const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
+        const state_rounding rounding = rounding_of_component(im, kind, run, i, b->state[i]);
         const component c = image_component(im, i);
         /* a rate that never changed, such as a clock's, was never rounded */
         const spread *rate = &b->rate[c.unknown];
         const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
         if (rounding.change != 0.0 && !still) {
-            *at = kept + rounding.change;
-            evaluate_now(b, angle_rad, real, b->time_s);
+            state[i] += rounding.change;
+            evaluate_now(b, state);
             sum +=
                 fabs((energy_of(im, b->value) - b->energy_J[1]) * (rounding.by / rounding.change));
-            *at = kept;
+            state[i] = b->state[i];
         }
     }
     return isfinite(sum) ? sum : 0.0;
@@ -173,7 +168,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
         without_W += b->off[im->count + k];
     }
-    evaluator_rounding(b->evaluator, b->angle_rad, FLOAT_LEAST, b->off);
+    evaluator_rounding(b->evaluator, b->state, FLOAT_LEAST, b->off);
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
         with_W += b->off[im->count + k];
     }
@@ -186,17 +181,17 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
 /* Updates terms[]. A momentum has the term rateless[] and, for each rate, its change when this rate is set to 0. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
-    double real[2 * IMAGE_COMPONENTS_MAX];
+    double state[3 * IMAGE_COMPONENTS_MAX];
     double sum[IMAGE_COMPONENTS_MAX];
-    memcpy(real, b->real, sizeof real);
+    memcpy(state, b->state, sizeof state);
     for (int i = 0; i < im->count; i++) {
         sum[i] = fabs(b->rateless[i]);
     }
-    for (int k = 0; k < im->reals; k++) {
-        if (im->real[k].primes == 1 && b->real[k] != 0.0) {
-            real[k] = 0.0;
-            evaluate_now(b, b->angle_rad, real, b->time_s);
-            real[k] = b->real[k];
+    for (int k = im->angles; k < im->angles + im->reals; k++) {
+        if (image_component(im, k).primes == 1 && state[k] != 0.0) {
+            state[k] = 0.0;
+            evaluate_now(b, state);
+            state[k] = b->state[k];
             for (int i = 0; i < im->count; i++) {
                 sum[i] += fabs(b->momentum_now[i] - b->value[im->count + BOOK_MOMENTA + i]);
             }
@@ -210,21 +205,18 @@ static void look_at_momenta(books *b) {
 static void look_at_rounding(books *b, const engine_kind *kind, const void *run) {
     const double state_J = state_rounding_J(b, kind, run);
     look_at_momenta(b);
-    evaluate_now(b, b->angle_rad, b->real, b->time_s);
-    evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
+    evaluate_now(b, b->state);
+    evaluator_rounding(b->evaluator, b->state, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
     b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
     b->lost_J = number_most(b->lost_J, step_lost_J(b, kind));
 }
 
-double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J) {
+double books_rounding_J(books *b, const engine_kind *kind, const void *run) {
     look_at_rounding(b, kind, run);
-    *computing_J = b->computing_J;
     return b->rounding_J + 0x1p-52 * b->size_J;
 }
-
-double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
@@ -265,13 +257,13 @@ double books_rule_J(const books *b) {
 /* --- terms linear in the rates -------------------------------------------------------------------*/
 
 /* Returns the kinetic energy with all rates reversed, and sets rateless[] to the momenta of that state. */
-static double reversed_J(books *b, const double *angle_rad, const double *from) {
+static double reversed_J(books *b, const double *from) {
     const image *im = b->image;
-    double real[2 * IMAGE_COMPONENTS_MAX];
-    for (int i = 0; i < im->reals; i++) {
-        real[i] = im->real[i].primes == 1 ? -from[i] : from[i];
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        state[i] = image_component(im, i).primes == 1 ? -from[i] : from[i];
     }
-    evaluate_now(b, angle_rad, real, b->time_s);
+    evaluate_now(b, state);
     memcpy(b->rateless, b->value + im->count + BOOK_MOMENTA,
            (size_t)im->count * sizeof *b->rateless);
     return b->value[im->count + BOOK_KINETIC];
@@ -288,18 +280,19 @@ static void take_rateless(books *b) {
  * because such a coordinate has no rate to reverse. */
 static bool find_rateless(books *b) {
     const image *im = b->image;
-    double angle_rad[IMAGE_COMPONENTS_MAX];
-    double real[2 * IMAGE_COMPONENTS_MAX] = {0};
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    double *real = state + im->angles;
     bool found = false;
     for (int k = 1; k <= 3 && im->recovered == 0; k++) {
+        memcpy(state, b->state, sizeof state);
         for (int i = 0; i < im->angles; i++) {
-            angle_rad[i] = b->angle_rad[i] + 0.37 * k * (i + 1);
+            state[i] += 0.37 * k * (i + 1);
         }
         for (int i = 0; i < im->reals; i++) {
-            real[i] = b->real[i] + (0.61 * k * (i + 1)) * (1.0 + fabs(b->real[i]));
+            real[i] += (0.61 * k * (i + 1)) * (1.0 + fabs(real[i]));
         }
-        (void)reversed_J(b, angle_rad, real);
-        evaluate_now(b, angle_rad, real, b->time_s);
+        (void)reversed_J(b, state);
+        evaluate_now(b, state);
         take_rateless(b);
         double most = 0.0;
         for (int i = 0; i < im->count; i++) {
@@ -321,27 +314,24 @@ enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are search
 /* Sets change[i] to the decrease of momentum i while the motion passes random state `draw`. False if not finite. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
-    double angle_rad[2][IMAGE_COMPONENTS_MAX];
-    double real[2][2 * IMAGE_COMPONENTS_MAX] = {{0}};
+    double to[2][3 * IMAGE_COMPONENTS_MAX];
     double from[3 * IMAGE_COMPONENTS_MAX];
     bool finite = true;
     for (int i = 0; i < im->angles + im->reals; i++) {
         const uint32_t drawn = (uint32_t)(draw * (im->angles + im->reals) + i + 1) * 2654435769U;
-        const double at = i < im->angles ? b->angle_rad[i] : b->real[i - im->angles];
+        const double at = b->state[i];
         from[i] = at + (0x1p-31 * (double)drawn - 1.0) * (1.0 + fabs(at));
     }
-    evaluate_now(b, from, from + im->angles, b->time_s);
+    evaluate_now(b, from);
     for (int i = 0; i < im->angles + im->reals; i++) {
         const component c = image_component(im, i);
         const int rate = c.primes == 0 ? image_find_component(im, c.unknown, 1) : -1;
         const double slope = rate >= 0 ? from[rate] : b->value[c.unknown];
-        for (int k = 0; k < 2; k++) {
-            double *to = i < im->angles ? &angle_rad[k][i] : &real[k][i - im->angles];
-            *to = from[i] + (k == 0 ? -FRAME_ASIDE_S : FRAME_ASIDE_S) * slope;
-        }
+        to[0][i] = from[i] - FRAME_ASIDE_S * slope;
+        to[1][i] = from[i] + FRAME_ASIDE_S * slope;
     }
     for (int k = 0; k < 2; k++) {
-        evaluate_now(b, angle_rad[k], real[k], b->time_s);
+        evaluate_now(b, to[k]);
         for (int i = 0; i < im->count; i++) {
             const double p = b->value[im->count + BOOK_MOMENTA + i];
             change[i] = k == 0 ? p : change[i] - p;
@@ -391,18 +381,18 @@ static void find_frame(books *b) {
 
 void books_enter(books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
-    kind->state(run, b->angle_rad, b->real);
-    if (b->entries == 0 && kind == &engine_float) {
-        evaluator_wrap(b->evaluator);
-    }
+    kind->state(run, b->state, b->state + im->angles);
     b->time_s = (double)kind->steps(run) * b->step_s;
     if (b->entries == 0) {
+        if (kind == &engine_float) {
+            evaluator_wrap(b->evaluator);
+        }
         b->has_rateless = find_rateless(b);
         find_frame(b);
         memset(b->rateless, 0, (size_t)im->count * sizeof *b->rateless);
     }
-    const double back_J = b->has_rateless ? reversed_J(b, b->angle_rad, b->real) : 0.0;
-    evaluate_now(b, b->angle_rad, b->real, b->time_s);
+    const double back_J = b->has_rateless ? reversed_J(b, b->state) : 0.0;
+    evaluate_now(b, b->state);
     const double *entry = b->value + im->count;
     b->moving_J[1] = entry[BOOK_KINETIC];
     if (b->has_rateless) {
@@ -418,12 +408,8 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         b->moving_J[0] = b->moving_J[1];
         b->stored_J[0] = b->stored_J[1];
         b->energy_J[0] = b->energy_J[1];
-        for (int k = 0; k < 2; k++) {
-            b->power_W[0][k] = power_W[k];
-        }
-        for (int i = 0; i < im->count; i++) {
-            b->momentum[i] = entry[BOOK_MOMENTA + i];
-        }
+        memcpy(b->power_W[0], power_W, sizeof power_W);
+        memcpy(b->momentum, entry + BOOK_MOMENTA, (size_t)im->count * sizeof *b->momentum);
     } else {
         add_work(b, power_W);
     }
@@ -437,7 +423,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     double all = b->energy_J[1] + power_W[0] + power_W[1];
     for (int i = 0; i < im->reals; i++) {
         if (im->real[i].primes == 1) {
-            spread_enter(&b->rate[im->real[i].unknown], b->real[i], b->entries);
+            spread_enter(&b->rate[im->real[i].unknown], b->state[im->angles + i], b->entries);
         }
     }
     for (int i = 0; i < im->count; i++) {
@@ -458,7 +444,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     b->entries++;
     if (b->entries % 2 == 1) { /* the number of steps is even, so Simpson's rule covers them all */
-        const double error = books_account(b).left;
+        const double error = books_left_J(b);
         b->most_J = number_most(b->most_J, fabs(error));
         if (fabs(error - b->kept_J) > fabs(b->jump_J)) {
             b->jump_J = error - b->kept_J;
@@ -468,18 +454,6 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
 }
 
-book_account account_of(const double level[2]) {
-    return (book_account){.level = {level[0], level[1]}, .left = level[1] - level[0]};
-}
-
-void account_enter(book_account *a, double given) {
-    a->left -= given;
-    a->largest = fabs(given) > a->largest ? fabs(given) : a->largest;
-}
-
-book_account books_account(const books *b) {
-    book_account a = account_of(b->energy_J);
-    account_enter(&a, b->input_J);
-    account_enter(&a, -b->loss_J);
-    return a;
+double books_left_J(const books *b) {
+    return b->energy_J[1] - b->energy_J[0] - b->input_J + b->loss_J;
 }

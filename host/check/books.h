@@ -9,17 +9,6 @@
 
 #include "host/engine/engine.h"
 
-/* An account of the energy or of a momentum. Its residual is its change since the start, minus the sum of its entries;
- * zero for an exact solution. An entry is positive if it adds energy or momentum. */
-typedef struct book_account {
-    double level[2]; /* at the start, now */
-    double left;     /* residual */
-    double largest;  /* largest |entry| */
-} book_account;
-
-book_account account_of(const double level[2]);
-void account_enter(book_account *a, double given);
-
 /* Mean and variance of a series, by Welford's recurrence. */
 typedef struct spread {
     double first;   /* first value */
@@ -37,10 +26,9 @@ typedef struct books {
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
     double *terms;        /* [count] largest sampled sum of the magnitudes of a momentum's terms */
-    double angle_rad[IMAGE_COMPONENTS_MAX];
-    double real[2 * IMAGE_COMPONENTS_MAX];
-    double kinetic_J[2]; /* start, now */
-    double moving_J[2];  /* kinetic_J without terms of odd order in the rates */
+    double state[3 * IMAGE_COMPONENTS_MAX]; /* now: angles, then reals */
+    double kinetic_J[2];                    /* start, now */
+    double moving_J[2];                     /* kinetic_J without terms of odd order in the rates */
     double stored_J[2];
     double energy_J[2];   /* T + V, or the energy integral if that differs */
     double input_J;       /* work of the inputs since the start */
@@ -78,17 +66,15 @@ books *books_open(const image *im);
 void books_close(books *b);
 /* Call it at the start and after each step. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
-book_account books_account(const books *b);
+/* The residual of the energy: its change since the start, minus the work of inputs and losses; J. */
+double books_left_J(const books *b);
 /* Root mean square of a momentum over the run, without its rateless[] part, and without its mean if frame[] is set. */
 double books_momentum(const books *b, int unknown);
 /* The largest swing of T, of V, and of each (rate * books_momentum() / 2). Swing: range of a sine of equal variance. */
 double books_swing_J(const books *b);
-/* Largest sampled energy change by the round-off of one step in a run of this kind. *computing_J: largest sampled
- * round-off of one evaluation of the energy, in double. */
-double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
+/* Largest sampled energy change by the round-off of one step in a run of this kind. Updates computing_J and lost_J. */
+double books_rounding_J(books *b, const engine_kind *kind, const void *run);
 /* Error bound of Simpson's rule. After an odd number of steps, pair_J bounds the last step. One step: infinite. */
 double books_rule_J(const books *b);
-/* Energy that the ledger of a float run with contacts may lose to underflow. Call books_rounding_J() first. */
-double books_lost_J(const books *b);
 
 #endif

@@ -7,6 +7,71 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
+/* === the run's own ledger (core/ledger.h), read by account ===================================== */
+
+typedef enum giver {
+    GIVER_ENERGIES, /* the term dL/dq in a momentum's account */
+    GIVER_FORCE,    /* a statement Q */
+    GIVER_DAMPER,   /* a statement F */
+    GIVER_CONTACT,
+    GIVER_INPUT, /* changes of an input that occurs in the energies */
+    GIVER_STEPS  /* energy that --stabilized has added */
+} giver;
+
+static const giver givers[] = {[LEDGER_ENERGIES] = GIVER_ENERGIES,
+                               [LEDGER_WORK] = GIVER_FORCE,
+                               [LEDGER_DRIVE] = GIVER_FORCE,
+                               [LEDGER_LOSS] = GIVER_DAMPER,
+                               [LEDGER_DAMPING] = GIVER_DAMPER};
+
+typedef struct kept_entry {
+    giver by;
+    place at;     /* the statement; unused for GIVER_ENERGIES and GIVER_STEPS */
+    double given; /* energy or momentum added to the account since the start, SI */
+} kept_entry;
+
+typedef struct kept_account {
+    kept_entry *entry; /* [entries] of statements, then inputs, then contacts, then GIVER_STEPS */
+    int entries;
+    double left; /* residual from the core, in the run's number type */
+} kept_account;
+
+/* Account 0 is the energy's; account k > 0 is the momentum of im->ledger.unknown[k]. The scene must have a ledger. All
+ * numbers are zero before the first step. Free with kept_account_free(). */
+static kept_account kept_account_read(const image *im, const engine_kind *kind, const void *run,
+                                      int account) {
+    const image_ledger *l = &im->ledger;
+    const int stabilized = im->settings.stabilized;
+    double *total = alloc(l->entries + l->accounts, sizeof *total);
+    kept_account k = {.entry = alloc(l->entries, sizeof *k.entry)};
+    if (kind->steps(run) > 0) {
+        kind->ledger(run, total, total + l->entries);
+    }
+    for (int i = 0; i < l->smooth; i++) {
+        if (l->entry[i].account == account) {
+            k.entry[k.entries++] = (kept_entry){givers[l->entry[i].kind], l->entry[i].at, total[i]};
+        }
+    }
+    for (int i = 0; i < l->inputs && account == 0; i++) {
+        k.entry[k.entries++] = (kept_entry){GIVER_INPUT, im->input[l->input[i]].at,
+                                            total[l->entries - stabilized - l->inputs + i]};
+    }
+    for (int c = 0; c < im->contacts && account <= im->coordinates; c++) {
+        k.entry[k.entries++] = (kept_entry){GIVER_CONTACT, im->contact[c].at,
+                                            total[l->smooth + c * (1 + im->coordinates) + account]};
+    }
+    if (stabilized && account == 0) {
+        k.entry[k.entries++] = (kept_entry){.by = GIVER_STEPS, .given = total[l->entries - 1]};
+    }
+    k.left = total[l->entries + account];
+    free(total);
+    return k;
+}
+
+static void kept_account_free(kept_account *k) { free(k->entry); }
+
+/* === the energy residual ======================================================================= */
+
 /* Allowance for N steps: ROUNDINGS * sqrt(N) times the round-off of one step; at least N times if N <= 1000. */
 #define ROUNDINGS 32.0
 
@@ -18,13 +83,14 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account kept = kept_account_read(im, kind, run, 0);
     for (int i = 0; i < kept.entries; i++) {
         const kept_entry *e = &kept.entry[i];
-        account_enter(&made->energy, e->given);
+        made->left_J -= e->given;
+        made->largest_J = larger(made->largest_J, e->given);
         switch (e->by) {
-        case GIVER_ENERGIES: break; /* only momenta have such entries */
         case GIVER_FORCE:
         case GIVER_INPUT: made->inputs_J += e->given; break;
         case GIVER_DAMPER: made->losses_J += e->given; break;
         case GIVER_CONTACT: made->contacts_J += e->given; break;
+        case GIVER_ENERGIES:     /* only momenta have such entries */
         case GIVER_STEPS: break; /* a scene with contacts cannot be --stabilized */
         }
     }
@@ -35,11 +101,11 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
-    const double lost_J = made->energy.left - kept.entry[kept.entries - 1].given;
+    const double lost_J = made->left_J - kept.entry[kept.entries - 1].given;
     kept_account_free(&kept);
     made->stabilized = true;
     made->lost_J = fabs(lost_J);
-    made->energy.left = fabs(lost_J) >= fabs(made->energy.left) ? lost_J : made->energy.left;
+    made->left_J = fabs(lost_J) >= fabs(made->left_J) ? lost_J : made->left_J;
 }
 
 /* With contacts the entries come from the run's ledger: the balance (books.h) omits contact forces, and Simpson's rule
@@ -50,27 +116,26 @@ energy_residual energy_residual_of(books *b, const engine_kind *kind, const void
         return made;
     }
     if (b->image->contacts > 0) {
-        made.energy = account_of(b->energy_J);
+        made.left_J = b->energy_J[1] - b->energy_J[0];
         enter_kept(b->image, kind, run, &made);
     } else {
-        made.energy = books_account(b);
+        made.left_J = books_left_J(b);
+        made.largest_J = larger(larger(0.0, b->input_J), b->loss_J);
         if (b->image->settings.stabilized) {
             enter_given_back(b->image, kind, run, &made);
         }
         made.inputs_J = b->input_J;
         made.losses_J = -b->loss_J;
-        made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.energy.left) ? b->jump_s : -1.0;
+        made.jump_s = fabs(b->jump_J) > 0.5 * fabs(made.left_J) ? b->jump_s : -1.0;
     }
     made.saturated = kind->saturated != NULL && kind->saturated(run) > 0;
-    made.left_J = made.energy.left;
-    made.largest_J = larger(made.energy.largest, b->moving_J[1] - b->moving_J[0]);
+    made.largest_J = larger(made.largest_J, b->moving_J[1] - b->moving_J[0]);
     made.largest_J = larger(made.largest_J, b->stored_J[1] - b->stored_J[0]);
     made.largest_J = larger(made.largest_J, books_swing_J(b));
-    double computing_J;
-    const double step_J = books_rounding_J(b, kind, run, &computing_J);
-    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * computing_J;
+    const double step_J = books_rounding_J(b, kind, run);
+    made.rounding_J = ROUNDINGS * number_root((double)b->entries) * step_J + 2.0 * b->computing_J;
     if (made.left_J != 0.0) { /* otherwise there is no residual to explain */
-        made.rounding_J += books_lost_J(b);
+        made.rounding_J += (double)b->entries * b->lost_J;
     }
     made.exact = b->image->settings.matrix == MATRIX_EXACT;
     if (made.exact && made.left_J != 0.0) { /* the integration of the powers is not exact */
@@ -96,52 +161,6 @@ void energy_residual_print(FILE *out, const energy_residual *b) {
                 b->largest_J, b->rounded ? ": every entry is smaller" : "");
     }
 }
-
-/* === the run's own ledger ====================================================================== */
-
-static giver giver_of(ledger_kind kind) {
-    switch (kind) {
-    case LEDGER_ENERGIES: return GIVER_ENERGIES;
-    case LEDGER_WORK:
-    case LEDGER_DRIVE: return GIVER_FORCE;
-    case LEDGER_LOSS:
-    case LEDGER_DAMPING: return GIVER_DAMPER;
-    }
-    return GIVER_ENERGIES;
-}
-
-kept_account kept_account_read(const image *im, const engine_kind *kind, const void *run,
-                               int account) {
-    const image_ledger *l = &im->ledger;
-    const int stabilized = im->settings.stabilized;
-    double *total = alloc(l->entries + l->accounts, sizeof *total);
-    kept_account k = {.entry = alloc(l->entries, sizeof *k.entry)};
-    if (kind->steps(run) > 0) {
-        kind->ledger(run, total, total + l->entries);
-    }
-    for (int i = 0; i < l->smooth; i++) {
-        if (l->entry[i].account == account) {
-            k.entry[k.entries++] =
-                (kept_entry){giver_of(l->entry[i].kind), l->entry[i].at, total[i]};
-        }
-    }
-    for (int i = 0; i < l->inputs && account == 0; i++) {
-        k.entry[k.entries++] = (kept_entry){GIVER_INPUT, im->input[l->input[i]].at,
-                                            total[l->entries - stabilized - l->inputs + i]};
-    }
-    for (int c = 0; c < im->contacts && account <= im->coordinates; c++) {
-        k.entry[k.entries++] = (kept_entry){GIVER_CONTACT, im->contact[c].at,
-                                            total[l->smooth + c * (1 + im->coordinates) + account]};
-    }
-    if (stabilized && account == 0) {
-        k.entry[k.entries++] = (kept_entry){.by = GIVER_STEPS, .given = total[l->entries - 1]};
-    }
-    k.left = total[l->entries + account];
-    free(total);
-    return k;
-}
-
-void kept_account_free(kept_account *k) { free(k->entry); }
 
 /* === the books in words ========================================================================== */
 
@@ -176,12 +195,10 @@ static void print_momenta(FILE *out, const books *b) {
     bool any = false;
     for (int i = 0; i < im->count; i++) {
         if (im->unknown[i].conserved) {
-            if (!any) {
-                fprintf(out, "conserved momentum [SI]\n");
-            }
+            fprintf(out, "%s  of %-13s %.9g, drifts by at most %.2e (numerical)\n",
+                    any ? "" : "conserved momentum [SI]\n", im->unknown[i].name, b->momentum[i],
+                    b->drift[i]);
             any = true;
-            fprintf(out, "  of %-13s %.9g, drifts by at most %.2e (numerical)\n",
-                    im->unknown[i].name, b->momentum[i], b->drift[i]);
         }
     }
     if (!any) {
@@ -193,7 +210,7 @@ static void print_momenta(FILE *out, const books *b) {
 
 void books_print(FILE *out, const books *b, const energy_residual *balance) {
     static const char contacts[] = "stops, friction, holds and crossings";
-    const book_account a = books_account(b);
+    const double left_J = books_left_J(b);
     print_levels(out, b);
     if (balance->known) {
         account_print_entry(out, "work of inputs", balance->inputs_J, "");
@@ -202,12 +219,12 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
             account_print_entry(out, contacts, balance->contacts_J, " (--with ledger lists each)");
         }
         account_print_end(out, b->energy_J[1] - b->energy_J[0], balance->left_J);
-    } else if (!isfinite(a.left)) {
+    } else if (!isfinite(left_J)) {
         fprintf(out, "  no balance: the energies are not finite numbers\n");
     } else { /* without a ledger the work of contacts is unknown */
         account_print_entry(out, "work of inputs", b->input_J, "");
         account_print_entry(out, "losses", -b->loss_J, "");
-        account_print_entry(out, contacts, a.left, ", including numerical errors of unknown size");
+        account_print_entry(out, contacts, left_J, ", including numerical errors of unknown size");
     }
     print_momenta(out, b);
 }

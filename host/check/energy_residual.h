@@ -21,11 +21,10 @@
 
 typedef struct energy_residual {
     bool known; /* false: no energies, energies that are not finite, or contacts without a ledger */
-    book_account energy;
     double inputs_J; /* these three: work since the start; negative if it removes energy */
     double losses_J;
     double contacts_J;
-    double left_J;     /* residual, signed: energy.left */
+    double left_J;     /* residual, signed */
     double largest_J;  /* largest |entry|, at least rounding_J / ENERGY_RESIDUAL_LIMIT */
     bool rounded;      /* every entry is below rounding_J / ENERGY_RESIDUAL_LIMIT */
     double rounding_J; /* allowance for the round-off of all steps and of evaluating the energy */
@@ -42,35 +41,6 @@ energy_residual energy_residual_of(books *b, const engine_kind *kind, const void
 bool energy_residual_lost(const energy_residual *b, double limit);
 /* Prints the summary's line; nothing if the residual is unknown. */
 void energy_residual_print(FILE *out, const energy_residual *b);
-
-/* === the run's own ledger (core/ledger.h), read by account ===================================== */
-
-typedef enum giver {
-    GIVER_ENERGIES, /* the term dL/dq in a momentum's account */
-    GIVER_FORCE,    /* a statement Q */
-    GIVER_DAMPER,   /* a statement F */
-    GIVER_CONTACT,
-    GIVER_INPUT, /* changes of an input that occurs in the energies */
-    GIVER_STEPS  /* energy that --stabilized has added */
-} giver;
-
-typedef struct kept_entry {
-    giver by;
-    place at;     /* the statement; unused for GIVER_ENERGIES and GIVER_STEPS */
-    double given; /* energy or momentum added to the account since the start, SI */
-} kept_entry;
-
-typedef struct kept_account {
-    kept_entry *entry; /* [entries] of statements, then inputs, then contacts, then GIVER_STEPS */
-    int entries;
-    double left; /* residual from the core, in the run's number type */
-} kept_account;
-
-/* Account 0 is the energy's; account k > 0 is the momentum of im->ledger.unknown[k]. The scene must have a ledger. All
- * numbers are zero before the first step. Free with kept_account_free(). */
-kept_account kept_account_read(const image *im, const engine_kind *kind, const void *run,
-                               int account);
-void kept_account_free(kept_account *k);
 
 /* === the books in words ========================================================================== */
 

@@ -16,17 +16,7 @@
 #include "host/os/system.h"
 #include "slow.h"
 
-enum { NAME_TEXT = 100 };
-
-#define PRIMES "''''''''''"
-
 /* --- single findings ------------------------------------------------------------------------------------*/
-
-static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT]) {
-    const record_column *c = &v->doubling->shape->column[k];
-    snprintf(text, NAME_TEXT, "%.80s%.*s", c->name, c->primes, PRIMES);
-    return text;
-}
 
 static void say_mass(FILE *out, const run_checks *v) {
     fprintf(
@@ -74,10 +64,11 @@ static void say_accuracy(FILE *out, const run_checks *v) {
     const finding *f = &v->found[FINDING_ACCURACY];
     const horizon h = horizon_of(v->doubling, RUN_CHECKS_TOLERANCE);
     const horizon_column *c = &h.column[f->component];
-    const char *unit = v->doubling->shape->column[f->component].unit->shown;
-    char name[NAME_TEXT];
+    const record_column *column = &v->doubling->shape->column[f->component];
+    const char *unit = column->unit->shown;
+    char name[RECORDS_SHOWN_NAME];
     fprintf(out, "%s is accurate to %g of its range only until t = %.6g s of %.6g s",
-            column_name(v, f->component, name),
+            records_shown_name(column, name),
             c->until_s > f->at_s ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE, f->at_s,
             v->doubling->end_s);
     if (isfinite(c->off)) {
@@ -94,27 +85,20 @@ static void say_accuracy(FILE *out, const run_checks *v) {
 }
 
 static void say_pole(FILE *out, const run_checks *v) {
-    double begin_s;
     char statement[STATEMENT_SIZE];
-    const diagnostics_question *q = pole_crossing_over(v->jumped, &begin_s);
+    const diagnostics_question *q = pole_crossing_over(v->jumped);
     statement_text(q->where, statement, sizeof statement);
     fprintf(
         out,
         "the step after t = %.6g s jumped over a pole, where %s grows without bound: %s; no motion continues through a pole",
-        begin_s, q->what, statement);
-}
-
-/* Did a resting contact slide over an edge of its stop? */
-static bool slid_off(const run_checks *v) {
-    double ignored_s;
-    return pole_crossing_through(v->jumped, &ignored_s).edge;
+        v->found[FINDING_POLE].at_s, q->what, statement);
 }
 
 static void say_missed(FILE *out, const run_checks *v) {
     const finding *f = &v->found[FINDING_MISSED];
     const image *im = v->image;
     char statement[STATEMENT_SIZE];
-    if (slid_off(v)) {
+    if (pole_crossing_through(v->jumped).edge) {
         statement_text(im->contact[f->component].at, statement, sizeof statement);
         fprintf(out,
                 "in the step after t = %.6g s a body slides over an edge of the stop that it rests "
@@ -141,14 +125,15 @@ static void say_missed(FILE *out, const run_checks *v) {
 
 static void say_aliased(FILE *out, const run_checks *v) {
     const step_doubling_aliased *a = &v->doubling->aliased;
-    const char *unit = v->doubling->shape->column[a->column].unit->shown;
+    const record_column *column = &v->doubling->shape->column[a->column];
+    const char *unit = column->unit->shown;
     const bool plain = strcmp(unit, "1") == 0;
-    char name[NAME_TEXT];
+    char name[RECORDS_SHOWN_NAME];
     fprintf(
         out,
         "the step aliases a fast force or motion: a run with steps of %.4g s, which do not alias "
         "it, gives %s = %.6g%s%s at t = %.6g s, not %.6g",
-        a->step_s, column_name(v, a->column, name), a->other, plain ? "" : " ", plain ? "" : unit,
+        a->step_s, records_shown_name(column, name), a->other, plain ? "" : " ", plain ? "" : unit,
         a->at_s, a->value);
 }
 
@@ -167,14 +152,14 @@ static int busiest(const run_checks *v, int besides) {
 static void say_events(FILE *out, const run_checks *v) {
     char statement[STATEMENT_SIZE];
     const int first = busiest(v, -1);
-    const int second = first < 0 ? -1 : busiest(v, first);
+    const int most[2] = {first, first < 0 ? -1 : busiest(v, first)};
     fprintf(out,
             "%" PRIu64 " step%s of %" PRIu64
             ", the first at t = %.6g s, had more than %d moments with events",
             v->overruns, v->overruns == 1 ? "" : "s", v->kind->steps(v->run), v->overran_s,
             WH_EVENTS_MAX);
-    for (int i = 0; i < 2 && (i == 0 ? first : second) >= 0; i++) {
-        statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
+    for (int i = 0; i < 2 && most[i] >= 0; i++) {
+        statement_text(v->image->contact[most[i]].at, statement, sizeof statement);
         fprintf(out, "%s'%s'", i == 0 ? ", most of them from " : " and ", statement);
     }
     fprintf(out, ": Whirl completed %s with all loaded contacts at rest or sticking",
@@ -213,12 +198,17 @@ typedef enum remedy_outcome {
     REMEDY_DEAR     /* the budget was exhausted, or the user interrupted */
 } remedy_outcome;
 
-enum { REMEDY_TEXT = 120 };
-
 /* A remedy must stay below this part of the limits, because the user's next run may round differently. */
 #define LEAVES 0.3
 #define PARTS_MOST 20000.0    /* largest divisor of the run's step that is tried */
 #define COMPENSATED_FROM 10.0 /* in float, sums are compensated if the divisor is at least this */
+
+typedef struct request {
+    double step_s;
+    wh_method method;
+    bool compensated;
+    bool in_double;
+} request;
 
 typedef struct search {
     const image *image;
@@ -228,14 +218,8 @@ typedef struct search {
     double a_step; /* operations of one step of the run, including the checks of this step */
     double stages; /* stages of the run's method */
     bool over_budget;
+    request good; /* the settings of the trial without findings (try()) */
 } search;
-
-typedef struct request {
-    double step_s;
-    wh_method method;
-    bool compensated;
-    bool in_double;
-} request;
 
 /* *made: the scene with the settings `w`. Returns false if the step is too small, or does not divide the duration. */
 static bool image_with(const image *im, const request *w, image *made) {
@@ -269,11 +253,6 @@ static bool is_off_at_once(const run_checks *v) {
     return off;
 }
 
-static bool does(const run_checks *v) {
-    return (v->warned & ~FINDING_OF_SCENE) == 0 && (v->books == NULL || !v->books->undefined) &&
-           !is_off_at_once(v);
-}
-
 /* Called after each step of a trial. Ends the trial (false) after a jump over a pole or through a contact. */
 static bool see(void *of, uint64_t step) {
     run_checks *v = of;
@@ -282,19 +261,17 @@ static bool see(void *of, uint64_t step) {
     return !pole_crossing_some(v->jumped);
 }
 
-/* Predicted operations of the trial; 0 with contacts, because the number of events is unknown. */
-static double operations(const search *s, const image *with) {
-    return with->contacts > 0 ? 0.0
-                              : (double)with->steps * s->a_step *
-                                    wh_methods[with->settings.method].stages / s->stages;
-}
-
+/* Has a run with these settings no findings? Then sets s->good to them. */
 static bool try(search *s, const request *w) {
     image with;
     if (!image_with(s->image, w, &with)) {
         return false;
     }
-    s->over_budget = s->over_budget || interrupted || operations(s, &with) > budget_left(s->budget);
+    /* with contacts the number of events, and so of operations, is unknown */
+    const double operations = with.contacts > 0 ? 0.0
+                                                : (double)with.steps * s->a_step *
+                                                      wh_methods[w->method].stages / s->stages;
+    s->over_budget = s->over_budget || interrupted || operations > budget_left(s->budget);
     if (s->over_budget) {
         return false;
     }
@@ -308,7 +285,9 @@ static bool try(search *s, const request *w) {
     /* v->doubling is NULL if the budget did not allow the finer run. Then the trial's error is unknown. */
     const loop_end end = v->doubling != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     run_checks_end(v, status);
-    const bool good = end == LOOP_DONE && does(v);
+    const bool good = end == LOOP_DONE && (v->warned & ~FINDING_OF_SCENE) == 0 &&
+                      (v->books == NULL || !v->books->undefined) && !is_off_at_once(v);
+    s->good = good ? *w : s->good;
     s->over_budget = end == LOOP_SPENT || end == LOOP_INTERRUPTED;
     run_checks_close(v);
     kind->stop(run);
@@ -316,43 +295,23 @@ static bool try(search *s, const request *w) {
 }
 
 /* Tries the settings in the run's number type; if that is float and fails, in double. */
-static bool try_either(search *s, request *w) {
-    if (try(s, w)) {
+static bool try_either(search *s, request w) {
+    if (try(s, &w)) {
         return true;
     }
-    request more = *w;
-    more.in_double = true;
-    more.compensated = s->image->settings.compensated;
-    if (s->kind != &engine_float || !try(s, &more)) {
-        return false;
-    }
-    *w = more;
-    return true;
-}
-
-static void write_options(const search *s, const request *w, char text[REMEDY_TEXT]) {
-    char step[STEP_WORD];
-    const image_settings *own = &s->image->settings;
-    const bool other = w->method != own->method || own->matrix != MATRIX_NONE;
-    const bool finer = w->step_s != s->image->step_s;
-    char all[REMEDY_TEXT + 1];
-    snprintf(all, sizeof all, "%s%s%s%s%s%s", other ? " --method " : "",
-             other ? wh_methods[w->method].word : "", finer ? " --step " : "",
-             finer ? step_text(w->step_s, step) : "",
-             w->compensated && !own->compensated ? " --compensated" : "",
-             w->in_double ? " --number double" : "");
-    snprintf(text, REMEDY_TEXT, "%s", all + 1);
+    w.in_double = true;
+    w.compensated = s->image->settings.compensated;
+    return s->kind == &engine_float && try(s, &w);
 }
 
 /* Tries ever finer steps: 1, 2 and 5 times powers of ten. */
-static bool try_steps(search *s, request w, double parts, char text[REMEDY_TEXT]) {
+static bool try_steps(search *s, request w, double parts) {
     w.step_s = step_nice_s(s->image->step_s / number_most(parts, 2.0));
     while (w.step_s > 0.0 && w.step_s * PARTS_MOST > s->image->step_s && !s->over_budget) {
         request now = w;
         now.compensated = w.compensated || (s->kind == &engine_float &&
                                             w.step_s * COMPENSATED_FROM <= s->image->step_s);
-        if (try_either(s, &now)) {
-            write_options(s, &now, text);
+        if (try_either(s, now)) {
             return true;
         }
         w.step_s = step_nice_s(0.7 * w.step_s);
@@ -360,7 +319,7 @@ static bool try_steps(search *s, request w, double parts, char text[REMEDY_TEXT]
     return false;
 }
 
-static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
+static remedy_outcome find(search *s, double parts) {
     const image *im = s->image;
     const wh_method own = im->settings.matrix == MATRIX_RK4 ? WH_RK4 : im->settings.method;
     request w = {im->step_s, own, im->settings.compensated, false};
@@ -372,25 +331,22 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
     other[1].in_double = true;
     for (int i = w.compensated ? 1 : 0; i < (s->kind == &engine_float ? 2 : 1); i++) {
         if (try(s, &other[i])) {
-            write_options(s, &other[i], text);
             return REMEDY_DOES;
         }
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
         w.method = WH_METHOD_DEFAULT; /* try_steps() below uses this method, too */
-        request usual = w;
-        if (try_either(s, &usual)) {
-            write_options(s, &usual, text);
+        if (try_either(s, w)) {
             return REMEDY_DOES;
         }
         parts = 1.0;
     }
-    return try_steps(s, w, parts, text) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
+    return try_steps(s, w, parts) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-/* Finds options such as "--step 50us --compensated" for a finished run, within the rest of the checks' budget. `parts`:
- * divisor of the first finer step that is tried, at least 2. */
-static remedy_outcome remedy_find(const run_checks *v, double parts, char text[REMEDY_TEXT]) {
+/* Prints a hint with options, such as "--step 50us --compensated", for a finished run, if it finds any within the rest
+ * of the checks' budget. `parts`: divisor of the first finer step that is tried, at least 2. */
+static remedy_outcome say_options(FILE *out, const run_checks *v, double parts) {
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
     search s = {.image = v->image,
@@ -399,9 +355,20 @@ static remedy_outcome remedy_find(const run_checks *v, double parts, char text[R
                 .part = LEAVES,
                 .a_step = (double)(v->budget->own + v->budget->spent) / steps,
                 .stages = wh_methods[v->image->settings.method].stages};
-    text[0] = '\0';
-    const remedy_outcome found = find(&s, parts, text);
+    const remedy_outcome found = find(&s, parts);
     budget_end(v->budget);
+    if (found == REMEDY_DOES) {
+        char step[STEP_WORD];
+        const image_settings *own = &s.image->settings;
+        const request *w = &s.good;
+        const bool other = w->method != own->method || own->matrix != MATRIX_NONE;
+        const bool finer = w->step_s != s.image->step_s;
+        fprintf(out, "hint:%s%s%s%s%s%s cures this (tried)\n", other ? " --method " : "",
+                other ? wh_methods[w->method].word : "", finer ? " --step " : "",
+                finer ? step_text(w->step_s, step) : "",
+                w->compensated && !own->compensated ? " --compensated" : "",
+                w->in_double ? " --number double" : "");
+    }
     return found;
 }
 
@@ -421,7 +388,7 @@ static bool is_reported(const run_checks *v, finding_id id) { return v->found[id
 static bool say_cause(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const char *hint = NULL;
-    if (slid_off(v)) {
+    if (pole_crossing_through(v->jumped).edge) {
         hint =
             "smooth the edge over a distance e that the motion covers in a few steps: write sqrt(x^2 + e^2) instead of abs(x), (a + b + sqrt((a - b)^2 + e^2))/2 instead of max(a, b)";
     } else if (is_reported(v, FINDING_MASS)) {
@@ -457,7 +424,6 @@ static double first_parts(const run_checks *v) {
 }
 
 static void say_remedy(FILE *out, const run_checks *v) {
-    char options[REMEDY_TEXT];
     const image *im = v->image;
     if (im->settings.tables != TABLES_NONE && is_reported(v, FINDING_ENERGY)) {
         char cells[40] = "";
@@ -466,8 +432,8 @@ static void say_remedy(FILE *out, const run_checks *v) {
         }
         fprintf(out, "hint: try %sno --tables: the tables may be too coarse\n", cells);
     }
-    switch (remedy_find(v, first_parts(v), options)) {
-    case REMEDY_DOES: fprintf(out, "hint: %s cures this (tried)\n", options); return;
+    switch (say_options(out, v, first_parts(v))) {
+    case REMEDY_DOES: return;
     case REMEDY_DEAR:
         fputs("hint: try a smaller --step (Whirl's own search for one would take more than a "
               "second)\n",
@@ -535,24 +501,20 @@ bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]
     const int of = v->found[id].component;
     const image *im = v->image;
     if (id == FINDING_ACCURACY || id == FINDING_ALIASED) {
-        (void)column_name(v, of, name);
+        (void)records_shown_name(&v->doubling->shape->column[of], name);
     } else if (id == FINDING_MISSED && of < im->contacts) {
         statement_text(im->contact[of].at, name, FINDINGS_NAME);
     } else if (id == FINDING_MISSED) {
         const component c = image_component(im, of - im->contacts);
-        snprintf(name, FINDINGS_NAME, "%.80s%.*s", im->unknown[c.unknown].name, c.primes, PRIMES);
+        snprintf(name, FINDINGS_NAME, "%s%.*s", im->unknown[c.unknown].name, c.primes,
+                 "''''''''''");
     } else {
         return false;
     }
     return true;
 }
 
-void findings_say_failed(FILE *out, const run_checks *v) {
-    char options[REMEDY_TEXT];
-    if (remedy_find(v, 2.0, options) == REMEDY_DOES) {
-        fprintf(out, "hint: %s cures this (tried)\n", options);
-    }
-}
+void findings_say_failed(FILE *out, const run_checks *v) { (void)say_options(out, v, 2.0); }
 
 /* --- runs that failed -------------------------------------------------------------------------------------*/
 

@@ -56,14 +56,11 @@ static bool has_few_digits(const step_doubling *t, int k, double least) {
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
 }
 
-static double least_range(const step_doubling *t) {
-    return t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
-}
-
 static horizon_column judge(const step_doubling *t, int k, double tolerance) {
     const step_doubling_column *c = &t->column[k];
     const double range = c->high - c->low;
-    const double by = number_most(range, c->has_rate ? 0.0 : least_range(t) * size_of(c));
+    const double least = t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
+    const double by = number_most(range, c->has_rate ? 0.0 : least * size_of(c));
     const double level = tolerance * by / t->left_out;
     horizon_column made = {.range = by,
                            .off = c->off.most * t->left_out,
@@ -164,11 +161,6 @@ static bool third_image(const step_doubling *t, uint64_t steps, image *im) {
 }
 
 /* With contacts, rates are not compared: they jump at impacts, and not at the same time in both runs. */
-static bool is_compared(const step_doubling *t, const horizon_column *c, int k) {
-    return (t->shape->image->contacts == 0 || t->shape->column[k].primes == 0) &&
-           c->verdict != HORIZON_ROUNDING;
-}
-
 static void compare(step_doubling *t, const horizon *h, const double *now, const double *other,
                     double step_s) {
     for (int k = 1; k < t->columns; k++) {
@@ -179,7 +171,9 @@ static void compare(step_doubling *t, const horizon *h, const double *now, const
         const double within = h->tolerance * range;
         const double least = within + ITS_OWN * (number_least(c->off, within) + c->rounding) +
                              ALIKE * t->column[k].one;
-        if (is_compared(t, c, k) && off > least && off / range > t->aliased.part) {
+        const bool jumps = t->shape->image->contacts > 0 && t->shape->column[k].primes > 0;
+        if (!jumps && c->verdict != HORIZON_ROUNDING && off > least &&
+            off / range > t->aliased.part) {
             t->aliased = (step_doubling_aliased){.column = k,
                                                  .part = off / range,
                                                  .value = now[k],
@@ -250,26 +244,9 @@ void aliasing_find(step_doubling *t, budget *of) {
 /* === in words ================================================================================= */
 
 /* Width of column names in tables; longer ones shift the rest of the row. */
-enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
+enum { NAME_WIDTH = 16 };
 
 static const image *image_of(const horizon *h) { return h->of->shape->image; }
-
-static const char *name_of(const horizon *h, int k, char text[NAME_SIZE]) {
-    const record_column *c = &h->of->shape->column[k];
-    snprintf(text, NAME_SIZE, "%.120s%.*s", c->name, c->primes, "''''''''''''''''");
-    return text;
-}
-
-static void print_head(FILE *out, const horizon *h) {
-    const image *im = image_of(h);
-    const image *finer = &h->of->finer;
-    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
-    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
-            image_sums(im), h->of->shape->kind->name, im->step_s, im->steps,
-            ratio_times(im->steps, im->step));
-    fprintf(out, "  compared with %s%s, double, step %.9g s\n", image_stepper(finer),
-            image_sums(finer), finer->step_s);
-}
 
 /* Prints why the accuracy of this column is unknown. */
 static void say_unknown(FILE *out, const horizon *h, int k) {
@@ -287,10 +264,10 @@ static void say_unknown(FILE *out, const horizon *h, int k) {
 
 static void print_column(FILE *out, const horizon *h, int k) {
     const horizon_column *c = &h->column[k];
-    const char *shown = h->of->shape->column[k].unit->shown;
-    const char *unit = strcmp(shown, "1") == 0 ? "" : shown;
-    char name[NAME_SIZE];
-    fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
+    const record_column *column = &h->of->shape->column[k];
+    const char *unit = strcmp(column->unit->shown, "1") == 0 ? "" : column->unit->shown;
+    char name[RECORDS_SHOWN_NAME];
+    fprintf(out, "  %-*s ", NAME_WIDTH, records_shown_name(column, name));
     switch (c->verdict) {
     case HORIZON_TO_THE_END:
         fprintf(out, "to the end      error %.2e of its range of %.4g %s", c->off / c->range,
@@ -312,16 +289,6 @@ static void print_column(FILE *out, const horizon *h, int k) {
 
 /* --- quantities that stay correct --------------------------------------------------------------------*/
 
-static void print_momenta(FILE *out, const horizon *h, const books *b) {
-    const image *im = image_of(h);
-    for (int i = 0; i < im->count; i++) {
-        if (im->unknown[i].conserved) {
-            fprintf(out, "  momentum of %s: drifts by at most %.2e %s\n", im->unknown[i].name,
-                    b->drift[i], im->unknown[i].momentum_si);
-        }
-    }
-}
-
 /* Prints the balances, which stay meaningful after the coordinates have become inaccurate. */
 static void print_invariants(FILE *out, const horizon *h, const books *b,
                              const energy_residual *balance) {
@@ -341,7 +308,13 @@ static void print_invariants(FILE *out, const horizon *h, const books *b,
         fprintf(out, "  energy: residual %.2e of the largest entry of the balance\n",
                 balance->ratio);
     }
-    print_momenta(out, h, b);
+    for (int i = 0; i < b->image->count; i++) {
+        const image_unknown *u = &b->image->unknown[i];
+        if (u->conserved) {
+            fprintf(out, "  momentum of %s: drifts by at most %.2e %s\n", u->name, b->drift[i],
+                    u->momentum_si);
+        }
+    }
 }
 
 /* The earliest reason why nothing is known after cut_s. */
@@ -361,8 +334,8 @@ static const char *cut_by(const step_doubling *t) {
 /* Prints the time until which the run is accurate, and why not longer. If `end`, also prints the end of the run. */
 static void say_until(FILE *out, const horizon *h, bool end) {
     const step_doubling *t = h->of;
-    char name[NAME_SIZE];
-    (void)name_of(h, h->first, name);
+    char name[RECORDS_SHOWN_NAME];
+    (void)records_shown_name(&t->shape->column[h->first], name);
     if (h->column[h->first].verdict == HORIZON_UNKNOWN) {
         say_unknown(out, h, h->first);
         fprintf(out, " (%s)", name);
@@ -383,8 +356,14 @@ static void say_until(FILE *out, const horizon *h, bool end) {
 
 void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance) {
     const step_doubling *t = h->of;
-    print_head(out, h);
-    if (image_of(h)->contacts > 0) {
+    const image *im = image_of(h);
+    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
+            image_sums(im), t->shape->kind->name, im->step_s, im->steps,
+            ratio_times(im->steps, im->step));
+    fprintf(out, "  compared with %s%s, double, step %.9g s\n", image_stepper(&t->finer),
+            image_sums(&t->finer), t->finer.step_s);
+    if (im->contacts > 0) {
         fputs("  in the steps around an event, errors of rates are ignored\n", out);
     }
     fprintf(out, "\neach quantity is accurate to %.3g of its range until [s]\n", h->tolerance);
@@ -432,12 +411,12 @@ const char *const horizon_words[] = {[HORIZON_TO_THE_END] = "end",
                                      [HORIZON_UNKNOWN] = "unknown"};
 
 void horizon_write(FILE *out, const horizon *h) {
-    char name[NAME_SIZE];
+    char name[RECORDS_SHOWN_NAME];
     fputs("column,unit,verdict,until,range,off\r\n", out);
     for (int k = 1; k < h->of->columns; k++) {
         const horizon_column *c = &h->column[k];
-        fprintf(out, "%s,%s,%s,%.15g,%.17g,%.17g\r\n", name_of(h, k, name),
-                h->of->shape->column[k].unit->shown, horizon_words[c->verdict], c->until_s,
-                c->range, c->off);
+        const record_column *column = &h->of->shape->column[k];
+        fprintf(out, "%s,%s,%s,%.15g,%.17g,%.17g\r\n", records_shown_name(column, name),
+                column->unit->shown, horizon_words[c->verdict], c->until_s, c->range, c->off);
     }
 }

@@ -18,8 +18,6 @@
  * operation has its value and slope at the middle m of the part, and bounds on value, slope and curvature over the
  * part. Each value is intersected with f(m) + f'(m) d + f''(part) d^2/2 and with f(m) + f'(part) d, d being the
  * distance from m. */
-typedef struct taylor_bounds taylor_bounds;
-
 /* A value and its first two derivatives by s, the share of the path from 0 to 1; NaN: unknown. */
 typedef struct jet {
     enclosure f[3];
@@ -33,7 +31,7 @@ typedef struct spot {
     jet *of;       /* [operations] */
 } spot;
 
-struct taylor_bounds {
+typedef struct taylor_bounds {
     const image *image;
     const op_list *list;
     double *input;      /* [inputs] */
@@ -45,7 +43,7 @@ struct taylor_bounds {
     bool glanced; /* natural.of[] is set */
     bool *needs;  /* [results * operations] does the result depend on the operation? */
     double half;  /* half the part's width */
-};
+} taylor_bounds;
 
 static const enclosure unknown = {(double)NAN, (double)NAN};
 static const enclosure zero = {0.0, 0.0};
@@ -482,24 +480,18 @@ struct missed {
     taylor_bounds *laws;    /* of the contact laws, for edges and moving friction limits; or NULL */
     int *mode;              /* [contacts] before the step */
     int *mode_to;           /* [contacts] after the step */
-    double most[IMAGE_COMPONENTS_MAX]; /* a larger acceleration is hidden */
-    const engine_piece *piece;         /* the present path */
-    double size;                       /* the larger of the margins at the ends of the path */
-    int parts;                         /* number of parts tested so far */
+    const engine_piece *piece; /* the present path */
 };
-
-static bool calls(const op_list *t, function_id function) {
-    bool some = false;
-    for (int i = 0; i < t->count; i++) {
-        some = some || (t->ops[i].code == OP_CALL && t->ops[i].function == function);
-    }
-    return some;
-}
 
 /* Has the list a kink, or an exponential or hyperbolic function, either of which may make a narrow peak? */
 static bool has_hills(const op_list *t) {
-    return op_list_has_kinks(t) || calls(t, FN_EXP) || calls(t, FN_TANH) || calls(t, FN_SINH) ||
-           calls(t, FN_COSH);
+    bool some = op_list_has_kinks(t);
+    for (int i = 0; i < t->count; i++) {
+        const function_id f = t->ops[i].function;
+        some = some || (t->ops[i].code == OP_CALL &&
+                        (f == FN_EXP || f == FN_TANH || f == FN_SINH || f == FN_COSH));
+    }
+    return some;
 }
 
 static bool has_edges(const image *im) {
@@ -561,64 +553,67 @@ static enclosure margin(const missed *m, int k, enclosure signal) {
     return is ? signal : enclosure_neg(signal);
 }
 
-/* A test of a part of the path: 1 found, 0 excluded, -1 undecided. `bar`: the threshold of the test. */
-typedef int looking(missed *m, int k, double low, double high, double bar);
+/* A test of one result of a list on parts of the path. */
+typedef struct search search;
+struct search {
+    int (*look)(const search *s, double low, double high); /* 1 found, 0 excluded, -1 undecided */
+    taylor_bounds *bounds;
+    int result;
+    double bar;      /* the threshold */
+    const missed *m; /* for contacts */
+    double size;     /* for contacts: the larger of the margins at the ends of the path */
+    int parts;       /* number of parts tested so far */
+};
 
 /* Contacts shorter than the finest part are not searched. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
-/* A negative margin up to the size `beyond` does not count: it is the error of a located event at an end. */
-static int look_contact(missed *m, int k, double low, double high, double beyond) {
-    taylor_bounds_look(m->signals, 2 * k, low, high);
-    const enclosure middle = margin(m, k, taylor_bounds_middle(m->signals, 2 * k));
-    const enclosure value = margin(m, k, taylor_bounds_value(m->signals, 2 * k));
-    const double change = number_least(m->size, taylor_bounds_change(m->signals, 2 * k));
+/* A negative margin up to the size s->bar does not count: it is the error of a located event at an end. */
+static int look_contact(const search *s, double low, double high) {
+    const int k = s->result / 2;
+    taylor_bounds_look(s->bounds, s->result, low, high);
+    const enclosure middle = margin(s->m, k, taylor_bounds_middle(s->bounds, s->result));
+    const enclosure value = margin(s->m, k, taylor_bounds_value(s->bounds, s->result));
+    const double change = number_least(s->size, taylor_bounds_change(s->bounds, s->result));
     const double rounding = WIDTHS * (middle.high - middle.low);
-    const double touch = number_most(beyond, number_most(TOUCH * change, rounding));
+    const double touch = number_most(s->bar, number_most(TOUCH * change, rounding));
     if (middle.high < -touch) {
         return 1;
     }
-    const bool outside = value.low >= -beyond || enclosure_size(value) <= touch;
+    const bool outside = value.low >= -s->bar || enclosure_size(value) <= touch;
     return outside || (is_finest(low, high) && enclosure_is_finite(value)) ? 0 : -1;
 }
 
-static int look_size(taylor_bounds *a, int i, double low, double high, double most) {
-    taylor_bounds_look(a, i, low, high);
-    const enclosure middle = taylor_bounds_middle(a, i);
-    if (middle.low > most || middle.high < -most) {
+/* Exceeds the value's size the bar? */
+static int look_size(const search *s, double low, double high) {
+    taylor_bounds_look(s->bounds, s->result, low, high);
+    const enclosure middle = taylor_bounds_middle(s->bounds, s->result);
+    if (middle.low > s->bar || middle.high < -s->bar) {
         return 1;
     }
-    return enclosure_size(taylor_bounds_value(a, i)) <= most ? 0 : -1;
+    return enclosure_size(taylor_bounds_value(s->bounds, s->result)) <= s->bar ? 0 : -1;
 }
 
-static int look_force(missed *m, int i, double low, double high, double most) {
-    return look_size(m->accel, i, low, high, most);
+/* Is the value below the bar? */
+static int look_grip(const search *s, double low, double high) {
+    taylor_bounds_look(s->bounds, s->result, low, high);
+    return taylor_bounds_middle(s->bounds, s->result).high < s->bar  ? 1
+           : taylor_bounds_value(s->bounds, s->result).low >= s->bar ? 0
+                                                                     : -1;
 }
 
-static int look_drag(missed *m, int i, double low, double high, double most) {
-    return look_size(m->laws, i, low, high, most);
-}
-
-static int look_grip(missed *m, int i, double low, double high, double least) {
-    taylor_bounds_look(m->laws, i, low, high);
-    return taylor_bounds_middle(m->laws, i).high < least  ? 1
-           : taylor_bounds_value(m->laws, i).low >= least ? 0
-                                                          : -1;
-}
-
-static int passes(missed *m, looking *look, int k, double low, double high, double bar,
-                  int halvings) {
-    if (m->parts >= PARTS_MOST) {
+static int passes(search *s, double low, double high, int halvings) {
+    if (s->parts >= PARTS_MOST) {
         return -1;
     }
-    m->parts++;
-    const int found = look(m, k, low, high, bar);
+    s->parts++;
+    const int found = s->look(s, low, high);
     if (found >= 0 || halvings == 0) {
         return found;
     }
     const double middle = 0.5 * (low + high);
-    const int first = passes(m, look, k, low, middle, bar, halvings - 1);
-    const int second = first > 0 ? 0 : passes(m, look, k, middle, high, bar, halvings - 1);
+    const int first = passes(s, low, middle, halvings - 1);
+    const int second = first > 0 ? 0 : passes(s, middle, high, halvings - 1);
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
@@ -642,20 +637,18 @@ static bool is_idle(missed *m, int k) {
 
 /* Does contact k, which has the same mode at both ends, leave this mode on the path? */
 static int contact_passes(missed *m, int k) {
-    double beyond = 0.0;
-    m->size = 0.0;
+    search s = {.look = look_contact, .bounds = m->signals, .result = 2 * k, .m = m};
     if (is_idle(m, k) || margin(m, k, taylor_bounds_glance(m->signals, 2 * k)).low >= 0.0 ||
-        look_contact(m, k, 0.0, 1.0, 0.0) == 0) {
+        look_contact(&s, 0.0, 1.0) == 0) {
         return 0;
     }
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->signals, 2 * k, end, end);
         const enclosure value = margin(m, k, taylor_bounds_value(m->signals, 2 * k));
-        m->size = number_most(m->size, value.high);
-        beyond = number_most(beyond, -2.0 * value.low);
+        s.size = number_most(s.size, value.high);
+        s.bar = number_most(s.bar, -2.0 * value.low);
     }
-    m->parts = 0;
-    return passes(m, look_contact, k, 0.0, 1.0, beyond, HALVINGS);
+    return passes(&s, 0.0, 1.0, HALVINGS);
 }
 
 static double middle_of(taylor_bounds *a, int result) {
@@ -714,23 +707,22 @@ static int limit_passes(missed *m, int k) {
         return 0;
     }
     const met of = met_by(m, k);
-    m->parts = 0;
-    return sticks ? passes(m, look_grip, i, 0.0, 1.0, number_least(grip, of.load), HALVINGS)
-                  : passes(m, look_drag, i, 0.0, 1.0,
-                           number_most(drag, TURNS * of.rate / (m->piece->span_s * of.turns)),
-                           HALVINGS);
+    search s = {.look = sticks ? look_grip : look_size, .bounds = m->laws, .result = i};
+    s.bar = sticks ? number_least(grip, of.load)
+                   : number_most(drag, TURNS * of.rate / (m->piece->span_s * of.turns));
+    return passes(&s, 0.0, 1.0, HALVINGS);
 }
 
 /* --- edges ---------------------------------------------------------------------------------------------*/
 
-static double look_width(missed *m, int i, double low, double high) {
-    taylor_bounds_look(m->laws, i, low, high);
-    const enclosure e = taylor_bounds_value(m->laws, i);
+static double width_on(const search *s, double low, double high) {
+    taylor_bounds_look(s->bounds, s->result, low, high);
+    const enclosure e = taylor_bounds_value(s->bounds, s->result);
     return enclosure_is_finite(e) ? e.high - e.low : 0.0;
 }
 
-static int look_edge(missed *m, int i, double low, double high, double most) {
-    return look_width(m, i, low, high) <= most                ? 0
+static int look_edge(const search *s, double low, double high) {
+    return width_on(s, low, high) <= s->bar                   ? 0
            : high - low <= 1.0 / (double)(1 << EDGE_HALVINGS) ? 1
                                                               : -1;
 }
@@ -740,13 +732,12 @@ static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {
         const int i = law_of(m->image, k, WH_LAW_ROWS + c);
-        const double width[2] = {look_width(m, i, 0.0, 0.0), look_width(m, i, 1.0, 1.0)};
+        search s = {.look = look_edge, .bounds = m->laws, .result = i};
+        const double width[2] = {width_on(&s, 0.0, 0.0), width_on(&s, 1.0, 1.0)};
         const double size = enclosure_size(taylor_bounds_value(m->laws, i));
         taylor_bounds_look(m->laws, i, 0.0, 0.0);
-        const double most = EDGE * (size + enclosure_size(taylor_bounds_value(m->laws, i)));
-        m->parts = 0;
-        some = (width[0] <= most || width[1] <= most) &&
-               passes(m, look_edge, i, 0.0, 1.0, most, EDGE_HALVINGS) > 0;
+        s.bar = EDGE * (size + enclosure_size(taylor_bounds_value(m->laws, i)));
+        some = (width[0] <= s.bar || width[1] <= s.bar) && passes(&s, 0.0, 1.0, EDGE_HALVINGS) > 0;
     }
     return some;
 }
@@ -793,22 +784,22 @@ static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
     bool open[IMAGE_COMPONENTS_MAX];
+    double most[IMAGE_COMPONENTS_MAX] = {0.0}; /* a larger acceleration is hidden */
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {
             const enclosure value = taylor_bounds_value(m->accel, i);
-            const double size = enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
-            m->most[i] = (end == 0 ? 0.0 : m->most[i]) + size;
+            most[i] += enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
         }
     }
     for (int i = 0; i < n; i++) {
         const double rate = number_most(fabs(m->piece->from[n + i]), fabs(m->piece->to[n + i]));
-        m->most[i] = number_most(number_most(m->most[i], TURNS * rate / m->piece->span_s), DBL_MIN);
-        open[i] = !(enclosure_size(taylor_bounds_glance(m->accel, i)) <= m->most[i]);
+        most[i] = number_most(number_most(most[i], TURNS * rate / m->piece->span_s), DBL_MIN);
+        open[i] = !(enclosure_size(taylor_bounds_glance(m->accel, i)) <= most[i]);
     }
     for (int i = 0; i < n && !found.sure; i++) {
-        m->parts = 0;
-        const int passed = open[i] ? passes(m, look_force, i, 0.0, 1.0, m->most[i], HALVINGS) : 0;
+        search s = {.look = look_size, .bounds = m->accel, .result = i, .bar = most[i]};
+        const int passed = open[i] ? passes(&s, 0.0, 1.0, HALVINGS) : 0;
         found = passed > 0 || m->smooth ? or_this(found, passed, m->image->contacts + i) : found;
     }
     return found;

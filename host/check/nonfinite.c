@@ -101,22 +101,6 @@ static const char hint_domain[] =
 
 /* --- values ------------------------------------------------------------------------------------*/
 
-/* Sets the unknowns at the last good state, and their highest derivatives. */
-static void look_here(blamed *v, const nonfinite_at *at) {
-    const image *im = at->image;
-    const state_list books = state_list_open(im, IMAGE_BOOKS);
-    const double *result = state_list_at(&books, 0.0, at->angle_rad, at->real);
-    for (int i = 0; i < im->count; i++) {
-        const image_unknown *u = &im->unknown[i];
-        for (int k = 0; k < u->order && k < u->starts; k++) {
-            v->state[i][k] = u->start[k]; /* remains if the state has no such component */
-        }
-        v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
-    }
-    blamed_place(v, at->angle_rad, at->real);
-    state_list_close(&books);
-}
-
 static bool is_sine(const diagnostics_node *n) {
     return n->code == DIAGNOSTICS_CALL && (n->function == FN_SIN || n->function == FN_COS);
 }
@@ -154,7 +138,17 @@ static bool *nodes_that_turn(const image *im) {
 static blamed look(const nonfinite_at *at, double ahead_s) {
     const image *im = at->image;
     blamed v = blamed_open(im);
-    look_here(&v, at);
+    const state_list books = state_list_open(im, IMAGE_BOOKS);
+    const double *highest = state_list_at(&books, at->angle_rad, at->real);
+    for (int i = 0; i < im->count; i++) {
+        const image_unknown *u = &im->unknown[i];
+        for (int k = 0; k < u->order && k < u->starts; k++) {
+            v.state[i][k] = u->start[k]; /* remains if the state has no such component */
+        }
+        v.state[i][u->order] = isfinite(highest[i]) ? highest[i] : 0.0;
+    }
+    state_list_close(&books);
+    blamed_place(&v, at->angle_rad, at->real);
     for (int i = 0; i < im->count; i++) {
         for (int k = 0; k < im->unknown[i].order; k++) {
             v.state[i][k] += ahead_s * v.state[i][k + 1];
@@ -256,13 +250,13 @@ void nonfinite_contact(const nonfinite_at *at, int k, diags *errors) {
     }
 }
 
-bool nonfinite_energies(const image *im, const engine_kind *kind, const double *angle_rad,
-                        const double *real, double time_s, diags *errors) {
+bool nonfinite_energies(const image *im, const engine_kind *kind, const double *state,
+                        double time_s, diags *errors) {
     char when[60];
     snprintf(when, sizeof when, "at t = %.9g s", time_s);
     const nonfinite_at at = {.image = im,
-                             .angle_rad = angle_rad,
-                             .real = real,
+                             .angle_rad = state,
+                             .real = state + im->angles,
                              .turns = kind == &engine_float,
                              .when = when};
     return nonfinite_term(&at, errors);

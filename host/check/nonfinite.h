@@ -50,9 +50,9 @@ bool nonfinite_set(const nonfinite_at *at, diags *errors);
 /* Searches contact k. If no expression is found, reports the contact as a whole. */
 void nonfinite_contact(const nonfinite_at *at, int k, diags *errors);
 
-/* Reports why the energies of a run were not finite at this time. */
-bool nonfinite_energies(const image *im, const engine_kind *kind, const double *angle_rad,
-                        const double *real, double time_s, diags *errors);
+/* Reports why the energies of a run were not finite at this time. state[]: angles, then reals. */
+bool nonfinite_energies(const image *im, const engine_kind *kind, const double *state,
+                        double time_s, diags *errors);
 
 /* Reports why a step of this run failed; false unless an expression or an angle of the model is the cause. */
 bool nonfinite_step(const image *im, const engine_kind *kind, const void *run, wh_status status,

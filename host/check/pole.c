@@ -79,14 +79,8 @@ static growth growth_of(const double *value, int stride) {
     return least > GROWS ? GROWTH_POLE : GROWTH_NONE;
 }
 
-/* The first value that changes its sign in this part, or -1. */
-static int changes(const looker *l) {
-    for (int i = 0; i < l->way->signs; i++) {
-        if ((l->sign[i] < 0.0 && l->then[i] > 0.0) || (l->sign[i] > 0.0 && l->then[i] < 0.0)) {
-            return i;
-        }
-    }
-    return -1;
+static bool changes_sign(double from, double to) {
+    return (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0);
 }
 
 bool pole_may_touch(const double value[static 4]) {
@@ -220,25 +214,23 @@ static bool stands_off(double at_place, const double *over, double far) {
     return stands;
 }
 
-/* Has the value a zero at the place? over[GROWTH_POINTS]: 1 / |value| at the distances. */
-static bool is_there(const spot *s, const double *over) {
-    const growth kind = growth_of(over, 1);
-    return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
-}
-
 /* The first expression that grows as at a pole, or -1. The farthest sample is at the signed distance `far`. */
 static int grows_from(const looker *l, const spot *s, double far) {
     const double zero_at = s->zero_at;
     const int values = l->way->values;
     const double extent = far < 0.0 ? zero_at - s->in.low : s->in.high - zero_at;
-    double over[GROWTH_POINTS];
+    double over[GROWTH_POINTS]; /* 1 / |value| at the distances */
     double off = far;
     for (int k = 0; k < GROWTH_POINTS; k++) {
         l->way->at(l->way->of, zero_at + off, l->then, l->side + (ptrdiff_t)k * values);
         over[k] = 1.0 / fabs(l->then[s->of]);
         off = k + 1 < GROWTH_POINTS ? off / GROWTH_CLOSER : off;
     }
-    if (!is_there(s, over) || (s->touches && stands_off(size_at(l, s->of, zero_at), over, far))) {
+    const growth to_zero = growth_of(over, 1);
+    const bool is_zero =
+        s->touches ? to_zero == GROWTH_POLE && !stands_off(size_at(l, s->of, zero_at), over, far)
+                   : to_zero != GROWTH_ROUGH;
+    if (!is_zero) {
         return -1;
     }
     for (int i = 0; i < values; i++) {
@@ -286,8 +278,11 @@ static int pole_at(const looker *l, const spot *s) {
 static int pole_in(const looker *l, part p, part *at) {
     l->way->at(l->way->of, p.low, l->sign, l->value);
     l->way->at(l->way->of, p.high, l->then, l->value);
-    int i = changes(l);
-    if (i >= 0) {
+    int i = 0;
+    while (i < l->way->signs && !changes_sign(l->sign[i], l->then[i])) {
+        i++;
+    }
+    if (i < l->way->signs) {
         *at = halve(l, i, p);
         return pole_at(l, &(spot){p, 0.5 * (at->low + at->high), l->way->nearest[i], i, false});
     }
@@ -366,7 +361,6 @@ typedef struct denominators {
     int *asked; /* [questions] indices of the image's expressions that may grow */
     int questions;
     vector_field *field; /* for derived denominators; NULL if there are none */
-    double *slope;       /* [field->n] */
 } denominators;
 
 enum {
@@ -389,14 +383,6 @@ static bool leaps(const image *im, const diagnostics_node *n) {
     return set;
 }
 
-static unsigned moves_of(const image *im, const diagnostics_node *n) {
-    if (n->code != DIAGNOSTICS_STATE) {
-        return 0;
-    }
-    const bool known = n->b < im->unknown[n->a].order && image_find_component(im, n->a, n->b) >= 0;
-    return MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
-}
-
 /* Is the node nonlinear in the moving values? */
 static bool bends(const denominators *d, const diagnostics_node *n, const int *of, int count) {
     const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
@@ -416,7 +402,12 @@ static void find_what_moves(denominators *d) {
         const diagnostics_node *n = &im->diagnostics.node[i];
         int of[2];
         const int count = blamed_operands(n, of);
-        unsigned is = moves_of(im, n);
+        unsigned is = 0U;
+        if (n->code == DIAGNOSTICS_STATE) {
+            const bool known =
+                n->b < im->unknown[n->a].order && image_find_component(im, n->a, n->b) >= 0;
+            is = MOVES | (known ? 0U : HIDDEN) | (leaps(im, n) ? LEAPS : 0U);
+        }
         for (int k = 0; k < count; k++) {
             is |= d->is[of[k]] & (MOVES | HIDDEN | LEAPS | BENDS);
         }
@@ -557,7 +548,6 @@ static denominators denominators_open(const image *im) {
     if (has_factors_that_move(&d)) {
         d.field = vector_field_open(im, &engine_float); /* engine_float, because it wraps angles */
         find_derived(&d);
-        d.slope = alloc(d.field->n, sizeof *d.slope);
     }
     for (int i = 0; i < d.count; i++) {
         d.some_bend = d.some_bend || d.divisor[i].bends;
@@ -572,7 +562,6 @@ static void denominators_close(denominators *d) {
     free(d->order);
     free(d->divisor);
     free(d->asked);
-    free(d->slope);
 }
 
 static void denominators_see(denominators *d, const double *state) {
@@ -582,8 +571,9 @@ static void denominators_see(denominators *d, const double *state) {
     for (int i = 0; i < d->ordered; i++) {
         d->at.value[d->order[i]] = blamed_node(&d->at, &im->diagnostics.node[d->order[i]]);
     }
-    if (d->field != NULL) {
-        vector_field_slope(d->field, state, d->slope);
+    if (d->field != NULL) { /* denominators_value() reads the operations of the slope */
+        double slope[3 * IMAGE_COMPONENTS_MAX];
+        vector_field_slope(d->field, state, slope);
     }
 }
 
@@ -602,10 +592,6 @@ static void denominators_see_all(denominators *d, const double *state, double *v
     if (d->field != NULL) {
         vector_field_slope(d->field, state, value + d->questions);
     }
-}
-
-static int denominators_values(const denominators *d) {
-    return d->questions + (d->field != NULL ? d->field->n : 0);
 }
 
 static double denominators_value(const denominators *d, const divisor *of) {
@@ -751,13 +737,14 @@ static double relative_way(const pole_crossing *j, const divisor *d) {
 
 /* The first expression with a pole on the path, or -1. */
 static int pole_between(pole_crossing *j) {
+    const int slopes = j->of.field != NULL ? j->of.field->n : 0;
     double *nearest = alloc(j->of.count, sizeof *nearest);
     for (int i = 0; i < j->of.count; i++) {
         nearest[i] = RESOLVED / relative_way(j, &j->of.divisor[i]);
     }
     const int value = pole_on(&(pole_way){.of = j,
                                           .signs = j->of.count,
-                                          .values = denominators_values(&j->of),
+                                          .values = j->of.questions + slopes,
                                           .nearest = nearest,
                                           .at = go_to});
     free(nearest);
@@ -765,18 +752,6 @@ static int pole_between(pole_crossing *j) {
 }
 
 /* --- step by step ------------------------------------------------------------------------------------*/
-
-static bool had_events(pole_crossing *j, const engine_kind *kind, const void *run) {
-    uint64_t overruns = 0;
-    const uint64_t events = kind->events(run, &overruns) + overruns;
-    const bool some = events != j->events;
-    j->events = events;
-    return some;
-}
-
-static bool changes_sign(const divisor *d) {
-    return (d->before < 0.0 && d->now > 0.0) || (d->before > 0.0 && d->now < 0.0);
-}
 
 /* May a nonlinear divisor have touched zero without changing its sign? */
 static bool may_touch(pole_crossing *j) {
@@ -805,25 +780,30 @@ void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *
         return;
     }
     const uint64_t steps = kind->steps(run);
+    uint64_t overruns;
+    const uint64_t events = kind->events(run, &overruns) + overruns;
     bool changed = false;
     const bool looks = steps > 0 && !j->blind;
     memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);
     kind->state(run, j->to, j->to + j->image->angles);
-    j->leapt = had_events(j, kind, run);
+    j->leapt = events != j->events;
+    j->events = events;
     j->through = missed_enter(j->contacts, kind, run, looks ? j->from : NULL, j->to, j->leapt);
     denominators_see(&j->of, j->to);
     for (int i = 0; i < j->of.count; i++) {
         divisor *d = &j->of.divisor[i];
         d->before = d->now;
         d->now = denominators_value(&j->of, d);
-        changed = changed || (changes_sign(d) && counts(j, d));
+        changed = changed || (changes_sign(d->before, d->now) && counts(j, d));
     }
     j->unseen += j->blind ? 1U : 0U;
     j->blind = false;
     if (looks && j->through.what < 0 && (changed || may_touch(j))) {
         j->found = pole_between(j);
     }
-    j->found_s = pole_crossing_some(j) ? ratio_times(steps - 1, j->image->step) : 0.0;
+    if (pole_crossing_some(j)) {
+        j->found_s = ratio_times(steps - 1, j->image->step);
+    }
 }
 
 void pole_crossing_pass(pole_crossing *j) {
@@ -839,12 +819,12 @@ bool pole_crossing_some(const pole_crossing *j) {
     return j != NULL && (j->found >= 0 || j->through.what >= 0);
 }
 
-missed_found pole_crossing_through(const pole_crossing *j, double *begin_s) {
-    *begin_s = j != NULL ? j->found_s : 0.0;
+double pole_crossing_begin_s(const pole_crossing *j) { return j->found_s; }
+
+missed_found pole_crossing_through(const pole_crossing *j) {
     return j != NULL ? j->through : MISSED_NOTHING;
 }
 
-const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s) {
-    *begin_s = j->found_s;
+const diagnostics_question *pole_crossing_over(const pole_crossing *j) {
     return &j->image->diagnostics.question[j->found];
 }

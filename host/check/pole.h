@@ -23,10 +23,12 @@ void pole_crossing_pass(pole_crossing *j);
 uint64_t pole_crossing_unseen(const pole_crossing *j);
 /* Has the run jumped over a pole or missed a contact? */
 bool pole_crossing_some(const pole_crossing *j);
-/* The missed contact or force (missed_enter()); MISSED_NOTHING for a pole. *begin_s: the begin of the step. */
-missed_found pole_crossing_through(const pole_crossing *j, double *begin_s);
-/* The expression with the pole. *begin_s: the begin of the step that jumped over it. */
-const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s);
+/* The begin of the step that jumped over the pole, or missed the contact. */
+double pole_crossing_begin_s(const pole_crossing *j);
+/* The missed contact or force (missed_enter()); MISSED_NOTHING for a pole. */
+missed_found pole_crossing_through(const pole_crossing *j);
+/* The expression with the pole. */
+const diagnostics_question *pole_crossing_over(const pole_crossing *j);
 
 /* === a pole on the way =========================================================================== */
 /* Finds a pole on the path from one state to the next.

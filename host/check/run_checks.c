@@ -107,10 +107,6 @@ static void tell(run_checks *v, finding_id id, double value, double at_s, int of
     v->warned |= is_note ? 0U : FINDING_BIT(id);
 }
 
-static double end_s(const run_checks *v) {
-    return ratio_times(v->kind->steps(v->run), v->image->step);
-}
-
 /* Is the run accurate to its end, compared with the finer run? */
 static bool is_right(const run_checks *v) {
     if (v->doubling == NULL) {
@@ -188,8 +184,7 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
 }
 
 /* Is an error reported that reaches the early tolerance at early_s, and the tolerance at until_s? See finding.h. */
-static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
-    (void)k;
+static bool is_off(const run_checks *v, double until_s, double early_s) {
     return early_s <= RUN_CHECKS_BEGIN * v->doubling->end_s ||
            until_s >= RUN_CHECKS_GROWS * early_s;
 }
@@ -202,17 +197,20 @@ static bool is_sudden(const run_checks *v, int k, double until_s, double early_s
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* The column whose error exceeds `tolerance` first, at *until_s; -1: none. Skips columns for which is() is false. */
-static int first_with(const run_checks *v, double tolerance, double early_tolerance,
-                      bool (*is)(const run_checks *v, int k, double until_s, double early_s),
-                      double *until_s) {
+/* The column whose error exceeds the tolerance first, at *until_s; -1: none. Skips columns that are not is_off(), or,
+ * with the tolerances of a sudden error, not is_sudden(). */
+static int first_error(const run_checks *v, bool sudden, double *until_s) {
+    const double tolerance = sudden ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE;
+    const double early_tolerance =
+        sudden ? HORIZON_TOLERANCE / RUN_CHECKS_SUDDEN : RUN_CHECKS_EARLY_TOLERANCE;
     int found = -1;
     horizon h = horizon_of(v->doubling, v->part * tolerance);
     horizon early = horizon_of(v->doubling, v->part * early_tolerance);
     for (int k = 1; k < v->doubling->columns; k++) {
         const horizon_column *c = &h.column[k];
+        const double early_s = early.column[k].until_s;
         if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&
-            is(v, k, c->until_s, early.column[k].until_s) &&
+            (sudden ? is_sudden(v, k, c->until_s, early_s) : is_off(v, c->until_s, early_s)) &&
             (found < 0 || is_worse(c, &h.column[found]))) {
             found = k;
             *until_s = c->until_s;
@@ -227,35 +225,13 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->doubling;
     double until_s = 0.0;
-    if (t->aliased.column > 0) {
-        return;
-    }
-    int k = first_with(v, RUN_CHECKS_TOLERANCE, RUN_CHECKS_EARLY_TOLERANCE, is_off, &until_s);
+    int k = first_error(v, false, &until_s);
     const bool is_cut = t->cut_s >= 0.0 && until_s >= t->cut_s && t->finer_failed_s < 0.0;
-    if (k < 0 || is_cut || !(until_s < finding_rows[FINDING_ACCURACY].limit * end_s(v))) {
-        k = t->cut_s >= 0.0
-                ? -1
-                : first_with(v, HORIZON_TOLERANCE, HORIZON_TOLERANCE / RUN_CHECKS_SUDDEN, is_sudden,
-                             &until_s);
+    if (k < 0 || is_cut || !(until_s < finding_rows[FINDING_ACCURACY].limit * t->end_s)) {
+        k = t->cut_s >= 0.0 ? -1 : first_error(v, true, &until_s);
     }
     if (k >= 0) {
-        tell(v, FINDING_ACCURACY, until_s / end_s(v), until_s, k);
-    }
-}
-
-static void judge_jumps(run_checks *v) {
-    double begin_s;
-    if (pole_crossing_some(v->jumped)) {
-        const missed_found through = pole_crossing_through(v->jumped, &begin_s);
-        tell(v, through.what >= 0 ? FINDING_MISSED : FINDING_POLE,
-             through.what < 0 || through.sure ? 1.0 : 0.5, begin_s, through.what);
-    }
-}
-
-static void judge_aliasing(run_checks *v) {
-    const step_doubling_aliased *found = &v->doubling->aliased;
-    if (found->column > 0) {
-        tell(v, FINDING_ALIASED, found->part, found->at_s, found->column);
+        tell(v, FINDING_ACCURACY, until_s / t->end_s, until_s, k);
     }
 }
 
@@ -277,10 +253,19 @@ static void judge(run_checks *v) {
     }
     judge_energy(v);
     if (v->doubling != NULL && v->kind->steps(v->run) > 0) {
-        judge_accuracy(v);
-        judge_aliasing(v);
+        const step_doubling_aliased *aliased = &v->doubling->aliased;
+        if (aliased->column > 0) {
+            tell(v, FINDING_ALIASED, aliased->part, aliased->at_s, aliased->column);
+        } else {
+            judge_accuracy(v);
+        }
     }
-    judge_jumps(v);
+    if (pole_crossing_some(v->jumped)) {
+        const missed_found through = pole_crossing_through(v->jumped);
+        tell(v, through.what >= 0 ? FINDING_MISSED : FINDING_POLE,
+             through.what < 0 || through.sure ? 1.0 : 0.5, pole_crossing_begin_s(v->jumped),
+             through.what);
+    }
     judge_events(v);
     const double part = apart_say(NULL, NULL, v->image);
     if (part > 0.0) {

@@ -122,16 +122,6 @@ static void put_error(json *j, const char *said) {
     free(reason);
 }
 
-static void put_files(json *j, const char *const files[RUN_JSON_FILES]) {
-    json_open(j, "files", '[');
-    for (int i = 0; i < RUN_JSON_FILES; i++) {
-        if (files[i] != NULL) {
-            json_text(j, NULL, files[i]);
-        }
-    }
-    json_close(j, ']');
-}
-
 void run_json(FILE *out, const run_json_request *w) {
     const run_checks *v = w->checks;
     const image *im = v->image;
@@ -148,7 +138,13 @@ void run_json(FILE *out, const run_json_request *w) {
     put_findings(&j, v);
     json_unlooked(&j, run_checks_unlooked(v));
     put_hints(&j, w->said != NULL ? w->said : "");
-    put_files(&j, w->file);
+    json_open(&j, "files", '[');
+    for (int i = 0; i < RUN_JSON_FILES; i++) {
+        if (w->file[i] != NULL) {
+            json_text(&j, NULL, w->file[i]);
+        }
+    }
+    json_close(&j, ']');
     json_whole(&j, "exit", w->status);
     json_close(&j, '}');
 }
@@ -163,10 +159,9 @@ void horizon_json(FILE *out, const horizon *h, int status) {
     for (int k = 1; k < h->of->columns; k++) {
         const horizon_column *c = &h->column[k];
         const record_column *r = &shape->column[k];
-        char name[FINDINGS_NAME];
-        snprintf(name, sizeof name, "%.80s%.*s", r->name, r->primes, "''''''''''");
+        char name[RECORDS_SHOWN_NAME];
         json_open(&j, NULL, '{');
-        json_text(&j, "name", name);
+        json_text(&j, "name", records_shown_name(r, name));
         json_text(&j, "unit", r->unit->shown);
         json_text(&j, "verdict", horizon_words[c->verdict]);
         json_number(&j, "until_s", c->until_s);

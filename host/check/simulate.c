@@ -36,15 +36,12 @@ typedef struct simulation {
     decimation *plot; /* NULL without a picture */
     plot_run course;  /* names and marks for a picture, and for the description of the CSV file */
     opening opening;  /* first sentence of the summary */
-    uint64_t steps;   /* number of steps of the whole run */
     bool write_failed;
-    double shown_s;   /* clock time when the progress was last shown */
-    char *said;       /* text of the findings */
-    diags *undefined; /* errors about energies and outputs that were not finite */
-    bool energies_reported;
+    double shown_s;       /* clock time when the progress was last shown */
+    char *said;           /* text of the findings */
+    diags *undefined;     /* errors about energies and outputs that were not finite */
     int output;           /* the first output that was not a finite number, or -1 */
     double output_s;      /* time when an output was first not finite */
-    double trusted_s;     /* the plot is shaded after this time; below or at 0: no shade */
     uint64_t output_rows; /* number of checked rows in which an output was not finite */
 } simulation;
 
@@ -82,11 +79,10 @@ static bool open_files(simulation *sim) {
 /* Undefined energies make a run fail at its end. Until then the motion and its records continue. */
 static void tell_energies(simulation *sim) {
     const books *b = sim->checks->books;
-    if (b == NULL || !b->undefined || sim->energies_reported) {
+    if (b == NULL || !b->undefined || diags_count(sim->undefined) > 0) {
         return;
     }
-    sim->energies_reported = true;
-    if (!nonfinite_energies(sim->image, sim->settings->kind, b->angle_rad, b->real, b->undefined_s,
+    if (!nonfinite_energies(sim->image, sim->settings->kind, b->state, b->undefined_s,
                             sim->undefined)) {
         diag_error(sim->undefined, sim->image->mechanism_at, NULL,
                    "at t = %.9g s the energies and powers of '%s' are not finite numbers",
@@ -98,17 +94,15 @@ static void tell_energies(simulation *sim) {
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
-    bool finite = true;
-    for (int i = 0; i < own; i++) {
-        if (!isfinite(value[i])) {
-            finite = false;
-            if (sim->output < 0) {
-                sim->output = i;
-                sim->output_s = time_s;
-            }
-        }
+    int i = 0;
+    while (i < own && isfinite(value[i])) {
+        i++;
     }
-    sim->output_rows += finite ? 0 : 1;
+    if (i < own && sim->output < 0) {
+        sim->output = i;
+        sim->output_s = time_s;
+    }
+    sim->output_rows += i < own ? 1 : 0;
 }
 
 static void tell_outputs(simulation *sim) {
@@ -150,7 +144,7 @@ static void mark_events(simulation *sim, uint64_t step) {
 
 static void enter(simulation *sim, uint64_t step) {
     const bool record =
-        has_records(sim) && (step % sim->settings->every == 0 || step == sim->steps);
+        has_records(sim) && (step % sim->settings->every == 0 || step == sim->image->steps);
     if (sim->traces != NULL) {
         traces_step(sim->traces, sim->run, step);
     }
@@ -187,7 +181,7 @@ static bool see(void *of, uint64_t step) {
     enter(sim, step);
     if (sim->settings->progress && (step & 255U) == 0 && system_now_s() - sim->shown_s > 0.2) {
         sim->shown_s = system_now_s();
-        fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->steps);
+        fprintf(stderr, "\r%5.1f %%", 100.0 * (double)step / (double)sim->image->steps);
     }
     return !sim->write_failed;
 }
@@ -196,7 +190,7 @@ static wh_status go(simulation *sim, bool *ended) {
     const simulation_settings *s = sim->settings;
     const loop l = {.kind = s->kind,
                     .run = sim->run,
-                    .steps = sim->steps,
+                    .steps = sim->image->steps,
                     .own = &sim->checks->own,
                     .see = see,
                     .of = sim};
@@ -215,7 +209,7 @@ static void say_interrupted(const simulation *sim) {
     const double step_s = sim->image->step_s;
     const char *command = sim->settings->taken != NULL ? "" : " run"; /* or `plot`, `figure` */
     fprintf(stderr, "whirl%s: interrupted at t = %.9g s of %.9g s%s\n", command,
-            (double)done * step_s, (double)sim->steps * step_s,
+            (double)done * step_s, (double)sim->image->steps * step_s,
             has_records(sim) ? "; the records so far are kept" : "");
 }
 
@@ -318,16 +312,6 @@ static void name_course(simulation *sim) {
     free(label);
 }
 
-/* Writes the settings of the run to a TOML file, named after the CSV file. */
-static bool write_about(const simulation *sim) {
-    char *facts = about_facts(sim->image, sim->settings->kind, sim->run);
-    char *tables = about_tables(sim->image);
-    const bool written = plot_run_about(sim->settings->csv, &sim->course, facts, tables);
-    free(facts);
-    free(tables);
-    return written;
-}
-
 /* Was the whole file written? Standard output is checked at the end of the program. */
 static bool is_taken(FILE *file) {
     return file == NULL || file == stdout || (fflush(file) == 0 && ferror(file) == 0);
@@ -337,8 +321,14 @@ static bool is_taken(FILE *file) {
 static bool close_records(simulation *sim, bool keep) {
     const simulation_settings *s = sim->settings;
     keep = keep && is_taken(sim->csv) && is_taken(sim->columns) && is_taken(sim->vcd);
-    bool good = !keep || sim->csv == NULL || sim->csv == stdout ||
-                !atomic_file_is_regular(sim->csv) || write_about(sim);
+    bool good = true;
+    if (keep && sim->csv != NULL && sim->csv != stdout && atomic_file_is_regular(sim->csv)) {
+        char *facts = about_facts(sim->image, s->kind, sim->run);
+        char *tables = about_tables(sim->image);
+        good = plot_run_about(s->csv, &sim->course, facts, tables); /* a file named after csv */
+        free(facts);
+        free(tables);
+    }
     keep = keep && good;
     good = atomic_file_close(sim->csv, s->csv, keep) && good;
     good = plot_run_csv_end(sim->columns, s->columns, keep, "run", sim->image->name) && good;
@@ -394,7 +384,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     }
     if (result == SIMULATION_DONE && h != NULL) {
         horizon_print_line(out, h, (sim->checks->warned & ~FINDING_OF_SCENE) != 0);
-    } else if (result == SIMULATION_DONE && sim->steps > 0) {
+    } else if (result == SIMULATION_DONE && sim->image->steps > 0) {
         fputs("trusted            not computed, because that takes more than a second: run `whirl "
               "trust`\n",
               out);
@@ -406,19 +396,19 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         const uint64_t unseen = pole_crossing_unseen(sim->checks->jumped);
         if (unseen > 0) {
             fprintf(out, ", poles and contacts in %" PRIu64 " of %" PRIu64 " steps", unseen,
-                    sim->steps);
+                    sim->image->steps);
         }
         fputs(": the check takes more than a second\n", out);
     }
     summary_print(out, sim->image, s->kind, sim->run, sim->checks->books, &sim->checks->balance);
 }
 
-/* Sets *h, sim->trusted_s and to->until_s. The caller frees *h. */
+/* Sets *h, the begin of a picture's shade, and to->until_s. The caller frees *h. */
 static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     const run_checks *v = sim->checks;
     *h = horizon_of(v->doubling, HORIZON_TOLERANCE);
     if (!h->to_the_end) {
-        sim->trusted_s = number_most(h->until_s, sim->image->step_s);
+        sim->course.trusted_s = number_most(h->until_s, sim->image->step_s);
     }
     const bool doubted = h->to_the_end && (v->warned & ~FINDING_OF_SCENE) != 0;
     to->until_s = doubted ? -1.0 : horizon_trusted_s(h);
@@ -436,7 +426,6 @@ simulation_result simulate(const image *im, const simulation_settings *s,
                            simulation_trust *outcome) {
     *outcome = (simulation_trust){.until_s = -1.0};
     simulation sim = {.image = im, .settings = s, .output = -1};
-    sim.steps = im->steps;
     sim.records = records_open(NULL, im, s->kind);
     name_course(&sim);
     simulation_result result = SIMULATION_BAD_FILE;
@@ -449,7 +438,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
         sim.records->plain = sim.columns;
         records_header(sim.records);
         records_read(sim.records, sim.run, 0.0);
-        sim.opening = opening_begin(sim.records, sim.steps);
+        sim.opening = opening_begin(sim.records, im->steps);
         sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records) : NULL;
         const wh_status status = go(&sim, &ended);
         run_checks_end(sim.checks, status);
@@ -463,7 +452,6 @@ simulation_result simulate(const image *im, const simulation_settings *s,
         outcome->over_budget = sim.checks->doubling == NULL;
         outcome->left = budget_left(&sim.checks->own);
         traces_close(sim.traces);
-        sim.course.trusted_s = sim.trusted_s;
         result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
         if (status == WH_OK && ended) {
             say_interrupted(&sim);

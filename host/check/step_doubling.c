@@ -31,7 +31,7 @@ static void add_shares(const double *off, int ways, int count, double *share) {
 
 static void evaluate_list(const image *im, image_role role, const double *x, double *value) {
     const state_list l = state_list_open(im, role);
-    memcpy(value, state_list_at(&l, 0.0, x, x + im->angles),
+    memcpy(value, state_list_at(&l, x, x + im->angles),
            (size_t)im->list[role]->results * sizeof *value);
     state_list_close(&l);
 }
@@ -220,15 +220,6 @@ typedef struct rounded {
 
 #define UNIT 0x1p-53 /* unit round-off of double */
 
-/* Is result i of the accelerations' list a highest derivative, which comes from solving the equations? */
-static bool is_solved_for(const image *im, int i) {
-    if (im->form == WH_SECOND_ORDER) {
-        return true;
-    }
-    const component c = image_component(im, i);
-    return c.primes + 1 == im->unknown[c.unknown].order;
-}
-
 static rounded *rounded_open(const image *im) {
     const int results = im->list[IMAGE_STEP]->results;
     rounded *r = alloc(1, sizeof *r);
@@ -244,10 +235,14 @@ static void rounded_look(rounded *r, const void *run) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     engine_double.state(run, angle_rad, real);
-    const double *result = state_list_at(&r->list, 0.0, angle_rad, real);
+    const double *result = state_list_at(&r->list, angle_rad, real);
     evaluator_rounding(r->list.evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
-        r->off[i] += is_solved_for(im, i) ? im->mass_blur / UNIT * fabs(result[i]) : 0.0;
+        const component c = image_component(im, i); /* in a first-order system */
+        const bool
+            is_solved_for = /* a highest derivative, which comes from solving the equations */
+            im->form == WH_SECOND_ORDER || c.primes + 1 == im->unknown[c.unknown].order;
+        r->off[i] += is_solved_for ? im->mass_blur / UNIT * fabs(result[i]) : 0.0;
         r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
         r->lost[i] += isfinite(r->off[i]) ? 0U : 1U;
     }
@@ -374,14 +369,6 @@ static bool is_unwrapped(const step_doubling *t) {
     return found;
 }
 
-/* From time_s on nothing is known: the difference of every column counts as infinite. */
-static void end_passages(step_doubling *t, double time_s) {
-    for (int k = 1; k < t->columns; k++) {
-        passages_enter(&t->column[k].off, time_s, (double)INFINITY);
-    }
-    t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
-}
-
 /* Has either run had a step with too many events? Such steps let stops rest too early, perhaps in both runs. */
 static bool has_overrun(const step_doubling *t) {
     uint64_t ours = 0;
@@ -400,16 +387,18 @@ static void follow(step_doubling *t, uint64_t begin) {
         return;
     }
     const double begin_s = ratio_times(begin, t->shape->image->step);
-    end_passages(t, t->look_s);
+    for (int k = 1; k < t->columns; k++) { /* from now on nothing is known */
+        passages_enter(&t->column[k].off, t->look_s, (double)INFINITY);
+    }
+    t->cut_s = t->cut_s < 0.0 ? t->look_s : t->cut_s;
     if (failed) {
         t->finer_failed_s = begin_s;
         t->unwrapped = is_unwrapped(t);
     }
     t->overrun_s = overran ? begin_s : t->overrun_s;
     if (leapt) {
-        double ignored_s;
         t->jumped_s = begin_s;
-        t->missed = pole_crossing_through(t->jumped, &ignored_s).what >= 0;
+        t->missed = pole_crossing_through(t->jumped).what >= 0;
     }
 }
 

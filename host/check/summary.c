@@ -109,18 +109,6 @@ void opening_enter(opening *o, const records *r) {
     }
 }
 
-/* The largest range of all values with this unit, except rates. */
-static double furthest(const opening *o, const records *r, const char *si) {
-    double most = 0.0;
-    for (int i = 1; i < r->columns; i++) {
-        const record_column *c = &r->column[i];
-        if (c->primes == 0 && strcmp(c->unit->si, si) == 0) {
-            most = number_most(most, (o->high[i] - o->low[i]) * c->unit->scale / c->unit->divisor);
-        }
-    }
-    return most;
-}
-
 static double strayed(const opening *o, int i) {
     return number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
 }
@@ -160,9 +148,15 @@ bool opening_moves(const opening *o, const records *r) {
 
 /* "x_cm stays at 0.6 m within 1.1e-09 m, y_cm at 0 m within 0.0e+00 m." False: no output stays. */
 static bool print_staying(FILE *out, const opening *o, const records *r) {
-    const double most = furthest(o, r, "m");
+    double most = 0.0; /* the largest range of a length */
     bool *marked = alloc(r->columns, sizeof *marked);
     int named = 0;
+    for (int i = 1; i < r->columns; i++) {
+        const record_column *c = &r->column[i];
+        if (c->primes == 0 && strcmp(c->unit->si, "m") == 0) {
+            most = number_most(most, (o->high[i] - o->low[i]) * c->unit->scale / c->unit->divisor);
+        }
+    }
     for (int i = 1; i < r->columns; i++) {
         marked[i] = stays(o, r, i, most);
     }
@@ -241,24 +235,18 @@ void opening_print(FILE *out, const opening *o, const records *r, const books *b
 
 /* === the summary ============================================================================== */
 
-static void print_value(FILE *out, const records *r, int column) {
-    const record_column *c = &r->column[column];
-    const int digits = r->kind->digits;
-    char text[160];
-    snprintf(text, sizeof text, "%.*s%.*s", 120, c->name, c->primes, "''''''''''''''''");
-    fprintf(out, "  %-16s %*.*g %s\n", text, digits + 8, digits, r->row[column], c->unit->shown);
-}
-
 static void print_state(FILE *out, const image *im, const engine_kind *kind, void *run) {
     records *r = records_open(NULL, im, kind);
     records_read(r, run, 0.0);
-    const int first_output = r->columns - im->own_outputs;
+    char name[RECORDS_SHOWN_NAME];
     fprintf(out, "\nfinal state\n");
-    for (int column = 1; column < r->columns; column++) {
-        if (column == first_output) {
+    for (int i = 1; i < r->columns; i++) {
+        const record_column *c = &r->column[i];
+        if (i == r->columns - im->own_outputs) {
             fprintf(out, "outputs\n");
         }
-        print_value(out, r, column);
+        fprintf(out, "  %-16s %*.*g %s\n", records_shown_name(c, name), kind->digits + 8,
+                kind->digits, r->row[i], c->unit->shown);
     }
     records_close(r);
 }

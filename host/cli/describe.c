@@ -61,7 +61,7 @@ static void tell_undefined(const image *im, const char *file) {
 
 static int print_image(const image *im, const char *file) {
     const state_list books = state_list_open(im, IMAGE_BOOKS);
-    const double *result = state_list_at(&books, 0.0, im->start_rad, im->start_real);
+    const double *result = state_list_at(&books, im->start_rad, im->start_real);
     bool finite = true;
     for (int i = 0; i < im->count; i++) {
         finite = finite && isfinite(result[i]);

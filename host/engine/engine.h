@@ -98,8 +98,7 @@ typedef struct state_list {
 } state_list;
 state_list state_list_open(const image *im, image_role role);
 void state_list_close(const state_list *l);
-/* Evaluates the list at a state, given as engine_kind's state() returns it. Returns l->result. */
-const double *state_list_at(const state_list *l, double time_s, const double *angle_rad,
-                            const double *real);
+/* Evaluates the list at t = 0 and a state, given as engine_kind's state() returns it. Returns l->result. */
+const double *state_list_at(const state_list *l, const double *angle_rad, const double *real);
 
 #endif

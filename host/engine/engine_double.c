@@ -76,9 +76,8 @@ void state_list_close(const state_list *l) {
     free(l->result);
 }
 
-const double *state_list_at(const state_list *l, double time_s, const double *angle_rad,
-                            const double *real) {
-    evaluator_run(l->evaluator, time_s, angle_rad, real,
+const double *state_list_at(const state_list *l, const double *angle_rad, const double *real) {
+    evaluator_run(l->evaluator, 0.0, angle_rad, real,
                   real + (l->image->coordinates - l->image->angles), l->input, l->result);
     return l->result;
 }

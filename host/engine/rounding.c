@@ -12,11 +12,6 @@ static bool is_beyond(const rounding_values *at, double value) {
     return at->least > 0.0 && fabs(value) > FLOAT_MOST;
 }
 
-/* A constant that float represents exactly has no round-off in either number type. */
-static double of_constant(double value) {
-    return (double)(float)value == value ? 0.0 : fabs(value);
-}
-
 /* The round-off of an OP_PHASE: the sum of its terms' magnitudes, as each is rounded. `more`: error of operand b. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
@@ -48,16 +43,18 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     const double b = values > 1 && o->b >= 0 ? error[o->b] : 0.0;
     *rounds = false;
     switch (o->code) {
-    case OP_CONSTANT: return of_constant(o->value);
+    case OP_CONSTANT: /* if float represents it exactly, it has no round-off in either number type */
+        return (double)(float)o->value == o->value ? 0.0 : fabs(o->value);
     case OP_LINEAR:
     case OP_RATE:
     case OP_INPUT:
     case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
-    case OP_NOISE: return 0.0;
+    case OP_NOISE:
+    case OP_CELL:
+    case OP_SIGN: return 0.0; /* the slope of a sign is zero, except at the jump */
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
-    case OP_CELL: return 0.0;
     /* |v| stands for the round-off of the position in the table. The interpolation error is not included. */
     case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
@@ -65,7 +62,6 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
     case OP_NEG:
     case OP_ABS: return a;
-    case OP_SIGN: return 0.0; /* the slope is zero, except at the jump */
     case OP_MIN:
     case OP_MAX: return v == x ? a : b;
     case OP_ADD:

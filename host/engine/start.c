@@ -97,7 +97,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
         return good;
     }
     const state_list signals = state_list_open(im, IMAGE_SIGNALS);
-    const double *signal = state_list_at(&signals, 0.0, im->start_rad, im->start_real);
+    const double *signal = state_list_at(&signals, im->start_rad, im->start_real);
     for (int k = 0; k < im->contacts; k++) {
         good = is_apart(&im->contact[k], signal[2 * k], errors) && good;
     }

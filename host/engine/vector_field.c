@@ -31,7 +31,7 @@ void vector_field_close(vector_field *f) {
 }
 
 void vector_field_slope(vector_field *f, const double *x, double *slope) {
-    const double *value = state_list_at(&f->list, 0.0, x, x + f->list.image->angles);
+    const double *value = state_list_at(&f->list, x, x + f->list.image->angles);
     for (int i = 0; i < f->n; i++) {
         slope[i] = f->next[i] >= 0 ? x[f->next[i]] : value[-1 - f->next[i]];
     }

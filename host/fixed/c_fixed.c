@@ -132,20 +132,11 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
     }
 }
 
-/* Has the operation a statement? A constant has one only as a result. */
-static bool is_stated(const fixed_list *l, int i) {
-    bool result = false;
-    for (int k = 0; k < l->results; k++) {
-        result = result || l->result[k] == i;
-    }
-    return l->op[i].used && (l->op[i].code != FIXED_CONSTANT || result);
-}
-
 static void body(FILE *out, const fixed_list *l) {
     for (int i = 0; i < l->count; i++) {
         const fixed_op *o = &l->op[i];
-        if (!is_stated(l, i)) {
-            continue;
+        if (!o->used || (o->code == FIXED_CONSTANT && !fixed_is_result(l, i))) {
+            continue; /* a constant has a statement only as a result */
         }
         if (o->code == FIXED_PHASE) {
             phase(out, l, i);
@@ -162,20 +153,16 @@ static void body(FILE *out, const fixed_list *l) {
     }
 }
 
-static int operations(const fixed_list *l) {
-    int count = 0;
-    for (int i = 0; i < l->count; i++) {
-        count += l->op[i].used && l->op[i].code != FIXED_CONSTANT;
-    }
-    return count;
-}
-
 static void c_fixed_list(FILE *out, const fixed_list *l, bool second) {
+    int operations = 0;
+    for (int i = 0; i < l->count; i++) {
+        operations += l->op[i].used && l->op[i].code != FIXED_CONSTANT;
+    }
     fprintf(out,
             "%s void accelerations(const uint32_t *phase, const int32_t *linear,%s\n"
             "    const int32_t *input, int32_t *result) {\n"
             "    (void)phase;\n    (void)linear;\n%s    (void)input;\n",
-            operations(l) > INLINED_MOST ? "static WH_FIXED_CALLED" : "WH_FIXED_LIST",
+            operations > INLINED_MOST ? "static WH_FIXED_CALLED" : "WH_FIXED_LIST",
             second ? " const int32_t *rate," : "", second ? "    (void)rate;\n" : "");
     body(out, l);
     fputs("}\n\n", out);
@@ -193,12 +180,8 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* Begins a statement that adds an increment to component i and limits the sum. limits() ends it after the increment. */
-static void limited(FILE *out, int i) {
-    fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
-}
-
-static void limits(FILE *out, const fixed_plan *p, int at) {
+/* Ends a statement that limits a component to its range. */
+static void put_limits(FILE *out, const fixed_plan *p, int at) {
     fputs("), ", out);
     c_fixed_number(out, p->format[at].low);
     fputs(", ", out);
@@ -206,7 +189,13 @@ static void limits(FILE *out, const fixed_plan *p, int at) {
     fputs(", &saturated);\n", out);
 }
 
-static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
+/* The increment of component i at a stage. */
+static void put_more(FILE *out, const fixed_plan *p, int i, int stage) {
+    const fixed_mover *m = &p->mover[i];
+    if (!p->second) {
+        fprintf(out, "wh_fixed_round(k%d[%d], %d)", stage - 1, i, m->to_kept - (stage == 3));
+        return;
+    }
     fputs("wh_fixed_round(", out);
     if (stage == 1) {
         fprintf(out, "half[%d]", i);
@@ -218,38 +207,20 @@ static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
     fprintf(out, ", %d)", m->guard - (stage == 3));
 }
 
-static void stage_second(FILE *out, const fixed_plan *p, int stage) {
+static void put_stage(FILE *out, const fixed_plan *p, int stage) {
     const int angles = p->image->angles;
     for (int i = 0; i < p->coordinates; i++) {
-        const fixed_mover *m = &p->mover[i];
         if (i < angles) {
             fprintf(out, "    phase[%d] = (uint32_t)state->angle[%d] + (uint32_t)", i, i);
-            put_more(out, m, i, stage);
-            fputs(";\n", out);
         } else {
             fprintf(out, "    linear[%d] = wh_fixed_add(state->real[%d], ", i - angles, i - angles);
-            put_more(out, m, i, stage);
-            fputs(");\n", out);
         }
-        fprintf(out, "    rate[%d] = wh_fixed_add(old_rate[%d], wh_fixed_round(k%d[%d], %d));\n", i,
-                i, stage - 1, i, m->to_kept - (stage == 3));
-    }
-}
-
-static void stage_first(FILE *out, const fixed_plan *p, int stage) {
-    const int angles = p->image->angles;
-    for (int i = 0; i < p->coordinates; i++) {
-        const int by = p->mover[i].to_kept - (stage == 3);
-        if (i < angles) {
+        put_more(out, p, i, stage);
+        fputs(i < angles ? ";\n" : ");\n", out);
+        if (p->second) {
             fprintf(out,
-                    "    phase[%d] = (uint32_t)state->angle[%d] + "
-                    "(uint32_t)wh_fixed_round(k%d[%d], %d);\n",
-                    i, i, stage - 1, i, by);
-        } else {
-            fprintf(
-                out,
-                "    linear[%d] = wh_fixed_add(state->real[%d], wh_fixed_round(k%d[%d], %d));\n",
-                i - angles, i - angles, stage - 1, i, by);
+                    "    rate[%d] = wh_fixed_add(old_rate[%d], wh_fixed_round(k%d[%d], %d));\n", i,
+                    i, stage - 1, i, p->mover[i].to_kept - (stage == 3));
         }
     }
 }
@@ -260,44 +231,35 @@ static void put_sixths(FILE *out, const fixed_mover *m, int i) {
     gained(out, m->third, x);
 }
 
-static void end_second(FILE *out, const fixed_plan *p) {
+static void put_end(FILE *out, const fixed_plan *p) {
     const int angles = p->image->angles;
-    const int linears = p->coordinates - angles;
     char x[80];
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
-        snprintf(x, sizeof x, "k0[%d] + k1[%d] + k2[%d]", i, i, i);
         if (i < angles) {
             fprintf(out, "    state->angle[%d] += ", i);
         } else {
-            limited(out, i - angles);
+            fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ",
+                    i - angles, i - angles);
         }
-        fprintf(out, "wh_fixed_round(wh_fixed_add(2 * half[%d], ", i);
-        gained(out, m->third_accel, x);
-        fprintf(out, "), %d)", m->guard);
+        if (p->second) {
+            snprintf(x, sizeof x, "k0[%d] + k1[%d] + k2[%d]", i, i, i);
+            fprintf(out, "wh_fixed_round(wh_fixed_add(2 * half[%d], ", i);
+            gained(out, m->third_accel, x);
+            fprintf(out, "), %d)", m->guard);
+        } else {
+            put_sixths(out, m, i);
+        }
         if (i < angles) {
             fputs(";\n", out);
         } else {
-            limits(out, p, i - angles);
+            put_limits(out, p, i - angles);
         }
-        fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(old_rate[%d], ",
-                linears + i, i);
-        put_sixths(out, m, i);
-        limits(out, p, linears + i);
-    }
-}
-
-static void end_first(FILE *out, const fixed_plan *p) {
-    const int angles = p->image->angles;
-    for (int i = 0; i < p->coordinates; i++) {
-        if (i < angles) {
-            fprintf(out, "    state->angle[%d] += ", i);
-            put_sixths(out, &p->mover[i], i);
-            fputs(";\n", out);
-        } else {
-            limited(out, i - angles);
-            put_sixths(out, &p->mover[i], i);
-            limits(out, p, i - angles);
+        if (p->second) {
+            fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(old_rate[%d], ",
+                    p->linears + i, i);
+            put_sixths(out, m, i);
+            put_limits(out, p, p->linears + i);
         }
     }
 }
@@ -306,13 +268,12 @@ static int at_least_one(int count) { return count > 0 ? count : 1; } /* C allows
 
 static void begin_step(FILE *out, const fixed_plan *p) {
     const int angles = p->image->angles;
-    const int linears = p->coordinates - angles;
     fprintf(out, "    uint32_t phase[%d];\n    int32_t linear[%d];\n", at_least_one(angles),
-            at_least_one(linears));
+            at_least_one(p->linears));
     if (p->second) {
         fprintf(out, "    int32_t rate[%d];\n    int32_t half[%d];\n", p->coordinates,
                 p->coordinates);
-        fprintf(out, "    const int32_t *old_rate = state->real + %d;\n", linears);
+        fprintf(out, "    const int32_t *old_rate = state->real + %d;\n", p->linears);
     }
     for (int stage = 0; stage < 4; stage++) {
         fprintf(out, "    int32_t k%d[%d];\n", stage, p->coordinates);
@@ -339,19 +300,11 @@ static void put_advance(FILE *out, const fixed_plan *p) {
     fprintf(out, "    accelerations(phase, state->real, %sinput, k0);\n",
             p->second ? "old_rate, " : "");
     for (int stage = 1; stage < 4; stage++) {
-        if (p->second) {
-            stage_second(out, p, stage);
-        } else {
-            stage_first(out, p, stage);
-        }
+        put_stage(out, p, stage);
         fprintf(out, "    accelerations(phase, linear, %sinput, k%d);\n", p->second ? "rate, " : "",
                 stage);
     }
-    if (p->second) {
-        end_second(out, p);
-    } else {
-        end_first(out, p);
-    }
+    put_end(out, p);
     fputs("    state->saturated = saturated;\n    state->steps++;\n    return WH_OK;\n}\n\n", out);
 }
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/alloc.h"
 #include "host/fixed/fixed_plan.h"
@@ -11,8 +12,6 @@
 /* === round-off of a run ======================================================================= */
 /* The increments of each step are compared with those of RK4 in double from the same state. The differences are summed
  * from the start of the run, because host/check/slow.h needs the sum. */
-
-typedef struct fixed_loss fixed_loss;
 
 #define RAD_PER_UNIT (6.283185307179586477 / 4294967296.0)
 
@@ -25,7 +24,7 @@ typedef struct component_loss {
     double low, high; /* range without round-off */
 } component_loss;
 
-struct fixed_loss {
+typedef struct fixed_loss {
     const fixed_plan *plan;
     evaluator *step;
     component_loss *component; /* [angles + reals] */
@@ -33,17 +32,17 @@ struct fixed_loss {
     int32_t *real;
     uint32_t saturated;
     double *input;
-};
+} fixed_loss;
 
 /* The smallest increment of component i, SI. */
-static double fixed_loss_unit(const fixed_plan *p, int i) {
+static double unit_of(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return i < angles ? RAD_PER_UNIT : number_scaled(1.0, -p->format[i - angles].bits);
 }
 
 static double value_of(const fixed_plan *p, const wh_fixed_state *s, int i) {
     const int angles = p->image->angles;
-    return fixed_loss_unit(p, i) * (i < angles ? (double)s->angle[i] : (double)s->real[i - angles]);
+    return unit_of(p, i) * (i < angles ? (double)s->angle[i] : (double)s->real[i - angles]);
 }
 
 static fixed_loss *fixed_loss_new(const fixed_plan *p, const wh_fixed_state *start) {
@@ -74,17 +73,6 @@ static void fixed_loss_free(fixed_loss *l) {
     }
 }
 
-/* Computes slope[], the time derivatives of all components, angles first. */
-static void slopes(const fixed_loss *l, const double *at, double *slope) {
-    const fixed_plan *p = l->plan;
-    const int angles = p->image->angles;
-    const int moved = p->second ? p->coordinates : 0; /* components whose slope is a rate */
-    for (int i = 0; i < moved; i++) {
-        slope[i] = at[moved + i];
-    }
-    evaluator_run(l->step, 0.0, at, at + angles, at + moved, l->input, slope + moved);
-}
-
 /* Called before each step. A step with clamped values is skipped, because clamping is reported separately. */
 static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
     static const double part[] = {0.0, 0.5, 0.5, 1.0};
@@ -92,6 +80,7 @@ static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
     const fixed_plan *p = l->plan;
     const image *im = p->image;
     const int all = im->angles + im->reals;
+    const int moved = p->second ? p->coordinates : 0; /* components whose slope is a rate */
     double slope[ALL_MOST] = {0.0};
     double at[ALL_MOST];
     for (int i = 0; i < im->inputs; i++) {
@@ -104,17 +93,14 @@ static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
         for (int i = 0; i < all; i++) {
             at[i] = value_of(p, state, i) + part[stage] * im->step_s * slope[i];
         }
-        slopes(l, at, slope);
+        memcpy(slope, at + moved, (size_t)moved * sizeof *slope);
+        evaluator_run(l->step, 0.0, at, at + im->angles, at + moved, l->input, slope + moved);
         for (int i = 0; i < all; i++) {
             l->component[i].asked += weight[stage] * im->step_s * slope[i];
         }
     }
-    for (int i = 0; i < im->angles; i++) {
-        l->angle[i] = state->angle[i];
-    }
-    for (int i = 0; i < im->reals; i++) {
-        l->real[i] = state->real[i];
-    }
+    memcpy(l->angle, state->angle, (size_t)im->angles * sizeof *l->angle);
+    memcpy(l->real, state->real, (size_t)im->reals * sizeof *l->real);
     l->saturated = state->saturated;
 }
 
@@ -125,7 +111,7 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
         const int64_t moved = i < im->angles
                                   ? state->angle[i] - l->angle[i]
                                   : (int64_t)state->real[i - im->angles] - l->real[i - im->angles];
-        const double lost = c->asked - (double)moved * fixed_loss_unit(l->plan, i);
+        const double lost = c->asked - (double)moved * unit_of(l->plan, i);
         if (isfinite(lost)) {
             c->lost += lost;
             c->most = number_most(c->most, fabs(c->lost));
@@ -133,12 +119,6 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
             c->high = number_most(c->high, value_of(l->plan, state, i) + c->lost);
         }
     }
-}
-
-/* Returns the largest |lost| of component i (angles first). *span: the component's range without round-off. SI. */
-static double fixed_loss_off(const fixed_loss *l, int i, double *span) {
-    *span = l->component[i].high - l->component[i].low;
-    return l->component[i].most;
 }
 
 /* === the interpreter ========================================================================== */
@@ -185,15 +165,6 @@ static int32_t quotient(const fixed_run *run, const fixed_op *o) {
     return o->negated ? -q : q;
 }
 
-static void look_up(fixed_run *run, int i, const uint32_t *phase) {
-    const fixed_op *o = &run->plan->list->op[i];
-    uint32_t sum = o->offset;
-    for (int k = 0; k < run->image->angles && o->turns != NULL; k++) {
-        sum += (uint32_t)o->turns[k] * phase[k];
-    }
-    wh_fixed_sincos(sum, &run->sine[i], &run->cosine[i]);
-}
-
 static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
     const fixed_list *l = run->plan->list;
     engine_operations += (uint64_t)l->count;
@@ -208,7 +179,14 @@ static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
         case FIXED_LINEAR: v = in.linear[o->index]; break;
         case FIXED_RATE: v = in.rate[o->index]; break;
         case FIXED_INPUT: v = in.input[o->index]; break;
-        case FIXED_PHASE: look_up(run, i, in.phase); break;
+        case FIXED_PHASE: {
+            uint32_t phase = o->offset;
+            for (int k = 0; k < l->angles && o->turns != NULL; k++) {
+                phase += (uint32_t)o->turns[k] * in.phase[k];
+            }
+            wh_fixed_sincos(phase, &run->sine[i], &run->cosine[i]);
+            break;
+        }
         case FIXED_SINE: v = run->sine[o->a.op]; break;
         case FIXED_COSINE: v = run->cosine[o->a.op]; break;
         case FIXED_SUM: v = wh_fixed_add(taken(run, o->a), taken(run, o->b)); break;
@@ -251,41 +229,31 @@ static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, in
                                                  (int16_t)m->half_accel.number, m->half_accel.by));
 }
 
-static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
+/* Sets the leaves at a stage. */
+static void go_to_stage(fixed_run *run, fixed_stages *k, int stage) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
-    const int linears = p->coordinates - angles;
     const int twice = stage == 3 ? 1 : 0; /* stage 3 takes a whole step: increments are doubled */
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
-        const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);
+        const int32_t added = wh_fixed_round(k->given[stage - 1][i], m->to_kept - twice);
+        const int32_t more =
+            p->second ? wh_fixed_round(place_more(m, k, i, stage), m->guard - twice) : added;
         if (i < angles) {
             k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
         } else {
             k->linear[i - angles] = wh_fixed_add(run->state.real[i - angles], more);
         }
-        k->rate[i] = wh_fixed_add(run->state.real[linears + i],
-                                  wh_fixed_round(k->given[stage - 1][i], m->to_kept - twice));
-    }
-}
-
-static void at_stage_first(fixed_run *run, fixed_stages *k, int stage) {
-    const fixed_plan *p = run->plan;
-    const int angles = run->image->angles;
-    const int twice = stage == 3 ? 1 : 0;
-    for (int i = 0; i < p->coordinates; i++) {
-        const int32_t more = wh_fixed_round(k->given[stage - 1][i], p->mover[i].to_kept - twice);
-        if (i < angles) {
-            k->phase[i] = (uint32_t)run->state.angle[i] + (uint32_t)more;
-        } else {
-            k->linear[i - angles] = wh_fixed_add(run->state.real[i - angles], more);
+        if (p->second) {
+            k->rate[i] = wh_fixed_add(run->state.real[p->linears + i], added);
         }
     }
 }
 
-static int32_t limited(fixed_run *run, int at, int32_t x) {
+static void add_limited(fixed_run *run, int at, int32_t more) {
     const wh_fixed_format *f = &run->plan->format[at];
-    return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
+    int32_t *real = &run->state.real[at];
+    *real = wh_fixed_limit(wh_fixed_add(*real, more), f->low, f->high, &run->state.saturated);
 }
 
 /* (k1 + 2 k2 + 2 k3 + k4)/3 with the state's binary point */
@@ -294,36 +262,25 @@ static int32_t sixths(const fixed_mover *m, const fixed_stages *k, int i) {
     return gained(m->third, k->given[0][i] + k->given[3][i] + 2 * middle);
 }
 
-static void end_second(fixed_run *run, const fixed_stages *k) {
+static void end_step(fixed_run *run, const fixed_stages *k) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
-    const int linears = p->coordinates - angles;
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
-        const int32_t three = k->given[0][i] + k->given[1][i] + k->given[2][i];
-        const int32_t sum = wh_fixed_add(2 * k->half_rate[i], gained(m->third_accel, three));
-        const int32_t more = wh_fixed_round(sum, m->guard);
-        if (i < angles) {
-            run->state.angle[i] += more;
-        } else {
-            int32_t *at = &run->state.real[i - angles];
-            *at = limited(run, i - angles, wh_fixed_add(*at, more));
+        const int32_t added = sixths(m, k, i);
+        int32_t more = added;
+        if (p->second) {
+            const int32_t three = k->given[0][i] + k->given[1][i] + k->given[2][i];
+            more = wh_fixed_round(wh_fixed_add(2 * k->half_rate[i], gained(m->third_accel, three)),
+                                  m->guard);
         }
-        int32_t *rate = &run->state.real[linears + i];
-        *rate = limited(run, linears + i, wh_fixed_add(*rate, sixths(m, k, i)));
-    }
-}
-
-static void end_first(fixed_run *run, const fixed_stages *k) {
-    const fixed_plan *p = run->plan;
-    const int angles = run->image->angles;
-    for (int i = 0; i < p->coordinates; i++) {
-        const int32_t more = sixths(&p->mover[i], k, i);
         if (i < angles) {
             run->state.angle[i] += more;
         } else {
-            int32_t *at = &run->state.real[i - angles];
-            *at = limited(run, i - angles, wh_fixed_add(*at, more));
+            add_limited(run, i - angles, more);
+        }
+        if (p->second) {
+            add_limited(run, p->linears + i, added);
         }
     }
 }
@@ -332,33 +289,21 @@ static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     fixed_run *run = (fixed_run *)(uintptr_t)scene->model;
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
-    const int linears = p->coordinates - angles;
     const int32_t *input = state->input;
     fixed_stages k = {0};
     for (int i = 0; i < angles; i++) {
         k.phase[i] = (uint32_t)state->angle[i];
     }
-    if (p->second) {
-        for (int i = 0; i < p->coordinates; i++) {
-            k.half_rate[i] = gained(p->mover[i].half_rate, state->real[linears + i]);
-        }
-        evaluate(run, (fixed_at){k.phase, state->real, state->real + linears, input}, k.given[0]);
-    } else {
-        evaluate(run, (fixed_at){k.phase, state->real, k.rate, input}, k.given[0]);
+    for (int i = 0; i < p->coordinates && p->second; i++) {
+        k.half_rate[i] = gained(p->mover[i].half_rate, state->real[p->linears + i]);
     }
+    /* a first-order list reads no rates */
+    evaluate(run, (fixed_at){k.phase, state->real, state->real + p->linears, input}, k.given[0]);
     for (int stage = 1; stage < 4; stage++) {
-        if (p->second) {
-            at_stage_second(run, &k, stage);
-        } else {
-            at_stage_first(run, &k, stage);
-        }
+        go_to_stage(run, &k, stage);
         evaluate(run, (fixed_at){k.phase, k.linear, k.rate, input}, k.given[stage]);
     }
-    if (p->second) {
-        end_second(run, &k);
-    } else {
-        end_first(run, &k);
-    }
+    end_step(run, &k);
     state->steps++;
     return WH_OK;
 }
@@ -446,10 +391,9 @@ static void run_outputs(void *of, double *output) {
     for (int i = 0; i < im->inputs; i++) {
         input[i] = number_scaled(run->state.input[i], -run->plan->format[im->reals + i].bits);
     }
-    const int linears = run->plan->second ? im->coordinates - im->angles : im->reals;
     if (run->observe != NULL) {
         evaluator_run(run->observe, ratio_times(run->state.steps, im->step), angle, real,
-                      real + linears, input, output);
+                      real + run->plan->linears, input, output);
     }
 }
 
@@ -488,12 +432,12 @@ static uint64_t run_evaluations(const void *of, uint64_t *most) {
 }
 
 static double run_component_off(const void *of, int i, double *span) {
-    return fixed_loss_off(((const fixed_run *)of)->loss, i, span);
+    const component_loss *c = &((const fixed_run *)of)->loss->component[i];
+    *span = c->high - c->low;
+    return c->most;
 }
 
-static double run_unit(const void *of, int i) {
-    return fixed_loss_unit(((const fixed_run *)of)->plan, i);
-}
+static double run_unit(const void *of, int i) { return unit_of(((const fixed_run *)of)->plan, i); }
 
 static uint64_t run_saturated(const void *of) { return ((const fixed_run *)of)->state.saturated; }
 

@@ -12,7 +12,7 @@
 #include "host/os/system.h"
 
 static enclosure twice(enclosure seen) {
-    if (seen.low == 0.0 && seen.high == 0.0) {
+    if (enclosure_is_zero(seen)) {
         return (enclosure){-1.0, 1.0};
     }
     if (seen.low == 0.0 || seen.high == 0.0) {
@@ -23,31 +23,24 @@ static enclosure twice(enclosure seen) {
                        seen.high > 0.0 ? 2.0 * seen.high : 0.5 * seen.high};
 }
 
-/* Shows the progress, at intervals that are short for a reader and cost little time. */
-static void show(uint64_t step, uint64_t steps) {
-    if ((step & 0x3fffU) == 0x3fffU) {
-        fprintf(stderr, "\rmeasuring ranges in double: %5.1f %%",
-                100.0 * (double)step / (double)steps);
-    }
-}
-
 typedef struct looking {
     const image *image;
     void *run;
-    double *angle_rad;
-    double *real;
     enclosure *seen;
     bool progress;
 } looking;
 
 static bool see(void *of, uint64_t step) {
     const looking *at = of;
-    if (at->progress) {
-        show(step, at->image->steps);
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    if (at->progress && (step & 0x3fffU) == 0x3fffU) {
+        fprintf(stderr, "\rmeasuring ranges in double: %5.1f %%",
+                100.0 * (double)step / (double)at->image->steps);
     }
-    engine_double.state(at->run, at->angle_rad, at->real);
+    engine_double.state(at->run, angle_rad, real);
     for (int i = 0; i < at->image->reals; i++) {
-        const enclosure now = {at->real[i], at->real[i]};
+        const enclosure now = enclosure_of(real[i]);
         at->seen[i] = step == 0 ? now : enclosure_hull(at->seen[i], now);
     }
     return true;
@@ -55,9 +48,7 @@ static bool see(void *of, uint64_t step) {
 
 static bool look(const image *im, enclosure *seen, bool progress, diags *errors) {
     void *run = engine_double.start(im);
-    double *angle = alloc(im->angles, sizeof *angle);
-    double *real = alloc(im->reals, sizeof *real);
-    looking at = {im, run, angle, real, seen, progress};
+    looking at = {im, run, seen, progress};
     const loop l = {.kind = &engine_double, .run = run, .steps = im->steps, .see = see, .of = &at};
     wh_status status;
     (void)loop_run(&l, &status);
@@ -65,8 +56,6 @@ static bool look(const image *im, enclosure *seen, bool progress, diags *errors)
         fputs("\r                                      \r", stderr);
     }
     engine_double.stop(run);
-    free(angle);
-    free(real);
     if (status != WH_OK) {
         diag_error(errors, im->at, "declare the ranges: range NAME = A .. B",
                    "the run of '%s' in double, from which ranges are taken, diverged", im->name);
@@ -74,28 +63,21 @@ static bool look(const image *im, enclosure *seen, bool progress, diags *errors)
     return status == WH_OK && !interrupted;
 }
 
-bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors) {
-    bool good = true;
+bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *errors) {
     bool all = true;
+    for (int i = 0; i < im->reals; i++) {
+        all = all && im->range[i].declared;
+    }
+    if (!all && !look(im, range, progress, errors)) {
+        return false;
+    }
     for (int i = 0; i < im->reals + im->inputs; i++) {
         const image_range *r = &im->range[i];
-        declared[i] = r->declared;
-        all = all && (r->declared || i >= im->reals);
+        range[i] = r->declared     ? (enclosure){r->low, r->high}
+                   : i < im->reals ? twice(range[i])
+                                   : twice(enclosure_of(im->input[i - im->reals].value));
     }
-    if (!all) {
-        good = look(im, range, progress, errors);
-    }
-    for (int i = 0; i < im->reals + im->inputs && good; i++) {
-        if (declared[i]) {
-            range[i] = (enclosure){im->range[i].low, im->range[i].high};
-        } else if (i < im->reals) {
-            range[i] = twice(range[i]);
-        } else {
-            const double value = im->input[i - im->reals].value;
-            range[i] = twice((enclosure){value, value});
-        }
-    }
-    return good;
+    return true;
 }
 
 /* === binary points and shifts ================================================================= */
@@ -326,7 +308,7 @@ static bool finish(const fixed_list *l, fixed_op *o) {
     return true;
 }
 
-static bool is_result(const fixed_list *l, int i) {
+bool fixed_is_result(const fixed_list *l, int i) {
     for (int k = 0; k < l->results; k++) {
         if (l->result[k] == i) {
             return true;
@@ -364,7 +346,7 @@ bool fixed_fits(const fixed_list *l) {
 
 static int digits_of(const fixed_list *l, int i) {
     const bool sums = l->op[i].code == FIXED_SUM || l->op[i].code == FIXED_DIFFERENCE;
-    return is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
+    return fixed_is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
 }
 
 bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
@@ -481,16 +463,6 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* Returns the margin for an operation's round-off: four units of its last digit, or 0 if `bits` is unknown. */
-static double rounding_of(const hull *h, const fixed_op *o) {
-    const bool rounds = o->code > FIXED_PHASE;
-    return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
-}
-
-static bool is_bounded(enclosure a) {
-    return a.low >= -FIXED_SIZE_MOST && a.high <= FIXED_SIZE_MOST;
-}
-
 static bool goes_on(const hull *h) { return !h->divides_zero && !h->unbounded; }
 
 static void enclose(hull *h, bool first) {
@@ -502,8 +474,12 @@ static void enclose(hull *h, bool first) {
     for (int i = 0; i < l->count && goes_on(h); i++) {
         fixed_op *o = &l->op[i];
         if (o->used) {
-            h->now[i] = enclosure_widened(value_of(h, o), rounding_of(h, o));
-            h->unbounded = !is_bounded(h->now[i]);
+            /* the margin for round-off: four units of the last digit */
+            const bool rounds = h->bits_known && o->code > FIXED_PHASE;
+            h->now[i] =
+                enclosure_widened(value_of(h, o), rounds ? number_scaled(4.0, -o->bits) : 0.0);
+            h->unbounded =
+                !(h->now[i].low >= -FIXED_SIZE_MOST && h->now[i].high <= FIXED_SIZE_MOST);
             o->range = first ? h->now[i] : enclosure_hull(o->range, h->now[i]);
         }
     }
@@ -551,16 +527,11 @@ static bool enclose_all(hull *h) {
     return !h->divides_zero;
 }
 
-/* Can a denominator be zero if all leaves but the turn angles are at mid-range? If so, narrower ranges do not help. */
-static bool divides_zero_anyway(hull *h) {
-    h->at_middles = true;
-    return !enclose_all(h);
-}
-
 static void say_zero(hull *h, const image *im, diags *errors) {
+    h->at_middles = true; /* all leaves but the turn angles */
     diag_error(
         errors, im->at,
-        divides_zero_anyway(h)
+        !enclose_all(h) /* then narrower ranges do not help */
             ? "choose --number float: a turn angle takes all values, so no range can exclude "
               "zero"
             : "declare narrower ranges: range NAME = A .. B; or choose --number float",
@@ -611,13 +582,6 @@ static int enter_constant(fixed_list *l, double value) {
 
 static bool is_constant(const fixed_list *l, int i) { return l->op[i].code == FIXED_CONSTANT; }
 
-/* Is the value plus or minus a power of two? */
-static bool is_power(double value) {
-    int exponent;
-    const double part = number_split(value, &exponent);
-    return part == 0.5 || part == -0.5;
-}
-
 static int enter_product(fixed_list *l, int a, int b) {
     if (is_constant(l, b)) { /* the constant becomes the first operand */
         const int swap = a;
@@ -625,7 +589,8 @@ static int enter_product(fixed_list *l, int a, int b) {
         b = swap;
     }
     const double value = l->op[a].value;
-    if (is_constant(l, a) && is_power(value)) {
+    int exponent;
+    if (is_constant(l, a) && fabs(number_split(value, &exponent)) == 0.5) { /* a power of two */
         return enter(l, (fixed_op){.code = FIXED_SAME,
                                    .a = {.op = b},
                                    .b = {.op = -1},

@@ -15,7 +15,7 @@
  * scene in double: each end is twice the run's extreme value. If all values have one sign, the end near zero is half
  * the value nearest to zero; if that is zero, the range is symmetric. If the value is always zero, the range is -1 to
  * 1. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on standard error. */
-bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
+bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *errors);
 
 /* Largest numbers of binary digits. The state and sums may have FIXED_KEPT_DIGITS, and other values FIXED_DIGITS.
  * Results may only have FIXED_RESULT_DIGITS, because RK4 adds six of them. */
@@ -78,6 +78,7 @@ typedef struct fixed_list {
 /* Returns the list with its results times scale[results], or NULL (reported) if an operation has no fixed form. */
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
 void fixed_list_free(fixed_list *list);
+bool fixed_is_result(const fixed_list *list, int operation);
 
 typedef struct fixed_leaves {
     const enclosure *linear;

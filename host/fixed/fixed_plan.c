@@ -53,20 +53,8 @@ static bool fixed_has_step(const image *im, diags *errors) {
     return false;
 }
 
-static bool starts_inside(const image *im, const enclosure *range, diags *errors) {
-    bool good = true;
-    for (int i = 0; i < im->reals + im->inputs; i++) {
-        const double value = i < im->reals ? im->start_real[i] : im->input[i - im->reals].value;
-        if (value < range[i].low || value > range[i].high) {
-            diag_error(errors, im->range[i].at, "widen the range, or start within it",
-                       "'%s' starts at %.9g, outside its range", im->range[i].name, value);
-            good = false;
-        }
-    }
-    return good;
-}
-
-static bool ranges_are_bounded(const image *im, const enclosure *range, diags *errors) {
+/* Returns false (reported) if a range is too large, or a start outside its range. */
+static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
         if (!(enclosure_size(range[i]) <= FIXED_SIZE_MOST)) {
@@ -77,12 +65,15 @@ static bool ranges_are_bounded(const image *im, const enclosure *range, diags *e
             good = false;
         }
     }
+    for (int i = 0; i < im->reals + im->inputs && good; i++) {
+        const double value = i < im->reals ? im->start_real[i] : im->input[i - im->reals].value;
+        if (value < range[i].low || value > range[i].high) {
+            diag_error(errors, im->range[i].at, "widen the range, or start within it",
+                       "'%s' starts at %.9g, outside its range", im->range[i].name, value);
+            good = false;
+        }
+    }
     return good;
-}
-
-/* Returns false (reported) if a range is too large, or a start outside its range. */
-static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
-    return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
 }
 
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors) {
@@ -168,18 +159,10 @@ static const fixed_op *result_of(const fixed_plan *p, int i) {
 
 /* The index of the real component that result i of the list changes; -1 for an angle of a first-order system. */
 static int kept_at(const fixed_plan *p, int i) {
-    const int angles = p->image->angles;
-    return p->second ? (p->coordinates - angles) + i : i - angles;
+    return p->second ? p->linears + i : i - p->image->angles;
 }
 
 enum { GUARD_MOST = 8 };
-
-/* Sets how results are added to a state with `kept` digits after the point. */
-static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
-    const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
-    m->to_kept = accel->bits - kept;
-    return m->to_kept >= 1 && make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept);
-}
 
 /* Sets how rate and acceleration are added to the position of a second-order coordinate. */
 static bool move_place(fixed_plan *p, int i) {
@@ -218,6 +201,7 @@ static bool move_place(fixed_plan *p, int i) {
     return false;
 }
 
+/* Sets how results are added to the state. */
 static bool make_movers(fixed_plan *p) {
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_op *accel = result_of(p, i);
@@ -228,7 +212,11 @@ static bool make_movers(fixed_plan *p) {
         } else if (2.0 * by >= 1073741824.0) {
             return false;
         }
-        if (!move_kept(&p->mover[i], accel, at >= 0 ? p->format[at].bits : 0) ||
+        fixed_mover *m = &p->mover[i];
+        const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
+        const int kept = at >= 0 ? p->format[at].bits : 0;
+        m->to_kept = accel->bits - kept;
+        if (m->to_kept < 1 || !make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept) ||
             (p->second && !move_place(p, i))) {
             return false;
         }
@@ -238,36 +226,26 @@ static bool make_movers(fixed_plan *p) {
 
 static void set_leaves(fixed_plan *p) {
     const image *im = p->image;
-    const int linears = p->second ? im->coordinates - im->angles : im->reals;
     for (int i = 0; i < p->list->count; i++) {
         fixed_op *o = &p->list->op[i];
         const int at = o->code == FIXED_LINEAR  ? o->index
-                       : o->code == FIXED_RATE  ? linears + o->index
+                       : o->code == FIXED_RATE  ? p->linears + o->index
                        : o->code == FIXED_INPUT ? im->reals + o->index
                                                 : -1;
         o->bits = at >= 0 ? p->format[at].bits : o->bits;
     }
 }
 
-static fixed_leaves leaves_of(const fixed_plan *p) {
-    const image *im = p->image;
-    const int linears = p->second ? im->coordinates - im->angles : im->reals;
-    return (fixed_leaves){p->stage, p->stage + linears, p->stage + im->reals};
-}
-
 /* The largest change of a real component in a whole step, from the ranges of the list's results. */
 static double most_added(const fixed_plan *p, int at) {
     const image *im = p->image;
-    const int linears = p->second ? im->coordinates - im->angles : im->reals;
-    if (!p->second) {
-        return 2.0 * enclosure_size(result_of(p, im->angles + at)->range);
-    }
-    if (at >= linears) {
-        return 2.0 * enclosure_size(result_of(p, at - linears)->range);
+    if (!p->second || at >= p->linears) {
+        const int result = p->second ? at - p->linears : im->angles + at;
+        return 2.0 * enclosure_size(result_of(p, result)->range);
     }
     const int i = im->angles + at;
-    return im->step_s *
-           (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
+    return im->step_s * (enclosure_size(p->range[p->linears + i]) +
+                         2.0 * enclosure_size(result_of(p, i)->range));
 }
 
 /* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so the
@@ -290,7 +268,7 @@ static bool widen_stages(fixed_plan *p) {
  * error (reported), such as a value that is too large. ranges_alone: p->stage is still p->range. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
-    const fixed_leaves leaves = leaves_of(p);
+    const fixed_leaves leaves = {p->stage, p->stage + p->linears, p->stage + im->reals};
     p->cells = fixed_hull(p->list, im, &leaves, bits_known, errors);
     if (p->cells == FIXED_HULL_UNBOUNDED && ranges_alone) {
         diag_error(
@@ -364,13 +342,6 @@ static bool make_all_fit(fixed_plan *p, diags *errors) {
     return false;
 }
 
-static void make_scale(const fixed_plan *p, double *scale) {
-    for (int i = 0; i < p->coordinates; i++) {
-        scale[i] =
-            0.5 * p->image->step_s * (!p->second && i < p->image->angles ? PHASE_PER_RAD : 1.0);
-    }
-}
-
 static void make_starts(fixed_plan *p) {
     const image *im = p->image;
     p->start_angle = alloc(im->angles, sizeof *p->start_angle);
@@ -400,9 +371,11 @@ static bool make(fixed_plan *p, bool progress, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
     double scale[IMAGE_COMPONENTS_MAX];
-    make_scale(p, scale);
+    for (int i = 0; i < p->coordinates; i++) {
+        scale[i] = 0.5 * im->step_s * (!p->second && i < im->angles ? PHASE_PER_RAD : 1.0);
+    }
     p->list = fixed_list_make(im, scale, errors);
-    if (p->list == NULL || !fixed_ranges(im, p->range, p->declared, progress, errors) ||
+    if (p->list == NULL || !fixed_ranges(im, p->range, progress, errors) ||
         !fixed_ranges_hold(im, p->range, errors)) {
         return false;
     }
@@ -427,10 +400,10 @@ fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors) {
     p->image = im;
     p->second = im->form == WH_SECOND_ORDER;
     p->coordinates = p->second ? im->coordinates : im->angles + im->reals;
+    p->linears = p->coordinates - im->angles;
     p->format = alloc(numbers, sizeof *p->format);
     p->range = alloc(numbers, sizeof *p->range);
     p->stage = alloc(numbers, sizeof *p->stage);
-    p->declared = alloc(numbers, sizeof *p->declared);
     p->mover = alloc(p->coordinates, sizeof *p->mover);
     if (!make(p, progress, errors)) {
         fixed_plan_free(p);
@@ -446,7 +419,6 @@ void fixed_plan_free(fixed_plan *plan) {
         free(plan->format);
         free(plan->range);
         free(plan->stage);
-        free(plan->declared);
         free(plan->mover);
         free(plan->start_angle);
         free(plan->start_real);
@@ -466,7 +438,7 @@ void fixed_plan_say(const fixed_plan *p, FILE *out, const char *begin) {
         }
     }
     for (int i = 0; i < im->reals + im->inputs; i++) {
-        if (!p->declared[i]) {
+        if (!im->range[i].declared) {
             fprintf(out, "%srange %s = %.6g .. %.6g: not declared, taken from %s\n", begin,
                     im->range[i].name, p->range[i].low, p->range[i].high,
                     i < im->reals ? "the results of a run in double to the scene's end"

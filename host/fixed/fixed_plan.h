@@ -41,9 +41,9 @@ typedef struct fixed_plan {
     wh_fixed_format *format; /* [reals + inputs] in the order of the scene */
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
-    bool *declared;          /* [reals + inputs] false: fixed_ranges() chose the range */
     bool second;
     int coordinates;    /* for first order, the number of components */
+    int linears;        /* coordinates that are no angles */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
     int cells; /* result of fixed_hull() */

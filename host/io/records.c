@@ -88,6 +88,11 @@ char *records_name(const record_column *c) {
     return name;
 }
 
+const char *records_shown_name(const record_column *c, char text[RECORDS_SHOWN_NAME]) {
+    snprintf(text, RECORDS_SHOWN_NAME, "%s%.*s", c->name, c->primes, "''''''''''");
+    return text;
+}
+
 static void write_header(const records *r, FILE *out, const layout *l) {
     fprintf(out, "%stime", l->header);
     for (int i = 1; i < r->columns; i++) {

@@ -32,6 +32,9 @@ records *records_open(FILE *out, const image *im, const engine_kind *kind);
 void records_close(records *r);
 /* "der(theta)", without the unit; the caller frees it. */
 char *records_name(const record_column *c);
+/* Writes "theta'" to text[], and returns `text`. */
+enum { RECORDS_SHOWN_NAME = 100 };
+const char *records_shown_name(const record_column *c, char text[RECORDS_SHOWN_NAME]);
 void records_header(records *r);
 /* Reads the run's state into r->row. `time_s` is steps * step, which is exact. */
 void records_read(records *r, void *run, double time_s);

@@ -52,16 +52,16 @@ static void read_run(const reading *r, void *run) {
 #define LITTLE 1e-3 /* least range, relative to a state's size or to a range of its unit */
 #define STILL 1e-9  /* SI; replaces a range of 0, because a tube always has a width */
 
-static const char *unit_of(const containment_request *w, int i) {
+static const image_unit *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
-    return w->image->unknown[s.unknown].unit[s.primes].si;
+    return &w->image->unknown[s.unknown].unit[s.primes];
 }
 
 static void set_within(const containment_request *w, containment_found *h) {
     for (int i = 0; i < h->states; i++) {
         double most = h->state[i].range;
         for (int j = 0; j < h->states; j++) {
-            if (strcmp(unit_of(w, i), unit_of(w, j)) == 0) {
+            if (strcmp(unit_of(w, i)->si, unit_of(w, j)->si) == 0) {
                 most = number_most(most, LITTLE * h->state[j].range);
             }
         }
@@ -276,38 +276,19 @@ static const char *name_of(const containment_request *w, int i, char text[NAME_S
     return text;
 }
 
-static const image_unit *unit_text_of(const containment_request *w, int i) {
-    const exact_state s = w->motion->state[i];
-    return &w->image->unknown[s.unknown].unit[s.primes];
-}
-
-static void print_head(FILE *out, const containment_found *h, const containment_request *w) {
-    const image *im = w->image;
-    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
-    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
-            image_sums(im), w->kind->name, im->step_s, im->steps, ratio_times(im->steps, im->step));
-    fprintf(out,
-            "  compared with a tube around the exact motion: Taylor steps of order %d, %" PRIu64
-            " of them to t = %.15g s\n",
-            FLOWPIPE_ORDER, h->flowpipe_steps, h->tube_s);
-}
-
-typedef struct figure {
-    char text[40];
-} figure;
+enum { FIGURE = 40 };
 
 /* Rounds up to this number of decimal places, so that a statement proved for x is true for the printed number. */
-static figure not_less(double x, int places) {
-    figure f;
+static const char *not_less(double x, int places, char text[FIGURE]) {
     const char *end;
     /* two doubles above x, because the conversion of its unit rounds, too */
     double shown = enclosure_above(enclosure_above(x));
-    snprintf(f.text, sizeof f.text, "%.*e", places, x);
-    while (x > 0.0 && decimal_read(f.text, &end) < x) {
+    snprintf(text, FIGURE, "%.*e", places, x);
+    while (x > 0.0 && decimal_read(text, &end) < x) {
         shown *= 1.001;
-        snprintf(f.text, sizeof f.text, "%.*e", places, shown);
+        snprintf(text, FIGURE, "%.*e", places, shown);
     }
-    return f;
+    return text;
 }
 
 /* The reason, in words, why the proved time ends. */
@@ -330,25 +311,27 @@ static const char *behind(const containment_found *h, const containment_state *s
 static void print_state(FILE *out, const containment_found *h, const containment_request *w,
                         int i) {
     const containment_state *s = &h->state[i];
-    const image_unit *unit = unit_text_of(w, i);
+    const image_unit *unit = unit_of(w, i);
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
     char name[NAME_SIZE];
-    const figure within = not_less(image_shown(unit, s->within), 2);
-    char until[40];
+    char within[FIGURE];
+    char off[FIGURE];
+    char wide[FIGURE];
+    char until[FIGURE];
+    not_less(image_shown(unit, s->within), 2, within);
     snprintf(until, sizeof until, "%.15g", s->until_s);
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
     if (!s->begun) {
-        fprintf(out, "%-12s within %s %s: %s\n", "never", within.text, shown,
+        fprintf(out, "%-12s within %s %s: %s\n", "never", within, shown,
                 s->verdict == CONTAINMENT_LEFT
                     ? "proved: the error is too large at the start"
                     : "the start value is known less accurately than that");
         return;
     }
-    const figure off = not_less(image_shown(unit, s->off), 1);
-    const figure wide = not_less(image_shown(unit, 2.0 * s->radius), 1);
     fprintf(out, "%-12s within %s %s: error at most %s, width of the tube %s%s\n",
-            s->verdict == CONTAINMENT_TO_THE_END ? "to the end" : until, within.text, shown,
-            off.text, wide.text, behind(h, s));
+            s->verdict == CONTAINMENT_TO_THE_END ? "to the end" : until, within, shown,
+            not_less(image_shown(unit, s->off), 1, off),
+            not_less(image_shown(unit, 2.0 * s->radius), 1, wide), behind(h, s));
 }
 
 /* Returns the state with the shortest proved time, or -1 if all are proved to the end. */
@@ -369,10 +352,17 @@ static int first_of(const containment_found *h) {
 }
 
 void containment_print(FILE *out, const containment_found *h, const containment_request *w) {
-    const double end_s = ratio_times(w->image->steps, w->image->step);
+    const image *im = w->image;
+    const double end_s = ratio_times(im->steps, im->step);
     const int first = first_of(h);
     char name[NAME_SIZE];
-    print_head(out, h, w);
+    fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
+    fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
+            image_sums(im), w->kind->name, im->step_s, im->steps, end_s);
+    fprintf(out,
+            "  compared with a tube around the exact motion: Taylor steps of order %d, %" PRIu64
+            " of them to t = %.15g s\n",
+            FLOWPIPE_ORDER, h->flowpipe_steps, h->tube_s);
     fputs("\ntime [s] until which the accuracy at the end of every step is proved\n", out);
     for (int i = 0; i < h->states; i++) {
         print_state(out, h, w, i);
@@ -397,7 +387,7 @@ void containment_rows_head(FILE *out, const containment_request *w) {
     char name[NAME_SIZE];
     fputs("time [s]", out);
     for (int i = 0; i < w->motion->states; i++) {
-        const char *si = unit_text_of(w, i)->si;
+        const char *si = unit_of(w, i)->si;
         name_of(w, i, name);
         fprintf(out, ",%s least [%s],%s most [%s],%s run [%s]", name, si, name, si, name, si);
     }

@@ -7,6 +7,7 @@
 #include "host/prove/graph.h"
 
 typedef struct making {
+    struct arena *arena;
     reader_symbols symbols;
     graph *graph;
     const instance *instance;
@@ -17,6 +18,15 @@ typedef struct making {
     int *solved; /* [count] nodes of x, by unknown */
     diags *errors;
 } making;
+
+/* `count` numbers -1. */
+static int *not_made(struct arena *arena, int64_t count) {
+    int *number = arena_alloc(arena, (size_t)count * sizeof *number);
+    for (int64_t i = 0; i < count; i++) {
+        number[i] = -1;
+    }
+    return number;
+}
 
 static bool is_smooth(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
@@ -98,14 +108,6 @@ static bool lagrange(making *k) {
     return true;
 }
 
-static bool not_linear(making *k, const term *t) {
-    diag_error(
-        k->errors, t->value->at,
-        "write each term as one highest derivative times a factor without highest derivatives",
-        "Whirl cannot prove that this is linear in the highest derivatives");
-    return false;
-}
-
 /* Builds left - right = 0. In host/derive's normal form, left - right is linear in the highest derivatives. */
 static bool given_outright(making *k) {
     graph *g = k->graph;
@@ -125,7 +127,11 @@ static bool given_outright(making *k) {
         for (int j = 0; j < k->count; j++) {
             const int slope = graph_slope(g, rest, k->states + j);
             if (graph_without(g, slope, k->states) != slope) {
-                return not_linear(k, t);
+                diag_error(
+                    k->errors, t->value->at,
+                    "write each term as one highest derivative times a factor without highest derivatives",
+                    "Whirl cannot prove that this is linear in the highest derivatives");
+                return false;
             }
             k->matrix[row * k->count + j] = slope;
         }
@@ -170,29 +176,18 @@ static void take_row(making *k, int i, int p, int c) {
     k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
 }
 
-/* Solves row p for unknown c. Its entries at earlier pivots are zero; the unknowns of later pivots are known. */
-static void substitute(making *k, int p, int c, const bool *known) {
-    graph *g = k->graph;
-    int right = k->force[p];
-    for (int j = 0; j < k->count; j++) {
-        if (known[j]) {
-            right = graph_sub(g, right, graph_mul(g, k->matrix[p * k->count + j], k->solved[j]));
-        }
-    }
-    k->solved[c] = graph_div(g, right, k->matrix[p * k->count + c]);
-}
-
 static bool solve(making *k) {
+    graph *g = k->graph;
     const int n = k->count;
-    bool *row_done = alloc(n, sizeof *row_done);
-    bool *column_done = alloc(n, sizeof *column_done);
-    bool *known = alloc(n, sizeof *known);
-    int *row = alloc(n, sizeof *row);
-    int *column = alloc(n, sizeof *column);
+    bool *row_done = arena_alloc(k->arena, (size_t)n * sizeof *row_done);
+    bool *column_done = arena_alloc(k->arena, (size_t)n * sizeof *column_done);
+    bool *known = arena_alloc(k->arena, (size_t)n * sizeof *known);
+    int *row = not_made(k->arena, n);
+    int *column = not_made(k->arena, n);
     bool good = true;
     for (int s = 0; s < n && good; s++) {
-        good = find_pivot(k, row_done, column_done, &row[s], &column[s]) &&
-               k->graph->count < GRAPH_NODES_MAX;
+        good =
+            find_pivot(k, row_done, column_done, &row[s], &column[s]) && g->count < GRAPH_NODES_MAX;
         if (good) {
             row_done[row[s]] = column_done[column[s]] = true;
             for (int i = 0; i < n; i++) {
@@ -202,24 +197,29 @@ static bool solve(making *k) {
             }
         }
     }
+    /* a row's entries at earlier pivots are zero; the unknowns of later pivots are known */
     for (int s = n - 1; s >= 0 && good; s--) {
-        substitute(k, row[s], column[s], known);
+        const int *entry = &k->matrix[row[s] * n];
+        int right = k->force[row[s]];
+        for (int j = 0; j < n; j++) {
+            if (known[j]) {
+                right = graph_sub(g, right, graph_mul(g, entry[j], k->solved[j]));
+            }
+        }
+        k->solved[column[s]] = graph_div(g, right, entry[column[s]]);
         known[column[s]] = true;
     }
-    free(row_done);
-    free(column_done);
-    free(known);
-    free(row);
-    free(column);
     return good;
 }
 
-static void need(const graph *g, bool *needed, int a) {
-    for (int i = a; i >= 0; i--) { /* operands come before their users */
+static void take_nodes(exact_motion *m, const graph *g, const int *rate) {
+    bool *needed = alloc(g->count, sizeof *needed);
+    int *to = alloc(g->count, sizeof *to);
+    for (int i = 0; i < m->states; i++) {
+        needed[rate[i]] = true;
+    }
+    for (int i = g->count - 1; i >= 0; i--) { /* operands come before their users */
         const node *n = &g->node[i];
-        if (i == a) {
-            needed[i] = true;
-        }
         if (needed[i] && n->kind != NODE_NUMBER && n->kind != NODE_VARIABLE) {
             needed[n->left] = true;
             if (n->right >= 0) {
@@ -227,16 +227,8 @@ static void need(const graph *g, bool *needed, int a) {
             }
         }
         if (needed[i] && n->kind == NODE_SINE) {
-            needed[i + 1] = true; /* a sine needs its cosine, the next node */
+            needed[i + 1] = true; /* a sine needs its cosine, the next node, with the same angle */
         }
-    }
-}
-
-static void take_nodes(exact_motion *m, const graph *g, const int *rate) {
-    bool *needed = alloc(g->count, sizeof *needed);
-    int *to = alloc(g->count, sizeof *to);
-    for (int i = 0; i < m->states; i++) {
-        need(g, needed, rate[i]);
     }
     m->node = alloc(g->count + m->states, sizeof *m->node);
     for (int i = 0; i < m->states; i++) {
@@ -333,35 +325,23 @@ static bool derive(making *k, exact_motion *m) {
 static making begin(const instance *inst, diags *errors) {
     const mechanism *of = inst->mechanism;
     const int n = of->coordinate_count;
-    making k = {.graph = graph_new(), .instance = inst, .count = n, .errors = errors};
-    k.symbols = (reader_symbols){.graph = k.graph,
-                                 .instance = inst,
-                                 .first = alloc(n, sizeof(int)),
-                                 .order = alloc(n, sizeof(int)),
-                                 .parameter = alloc(of->parameter_count, sizeof(int)),
-                                 .let = alloc(of->let_count, sizeof(int)),
-                                 .errors = errors};
-    for (int i = 0; i < of->parameter_count; i++) {
-        k.symbols.parameter[i] = -1;
-    }
-    for (int i = 0; i < of->let_count; i++) {
-        k.symbols.let[i] = -1;
-    }
-    k.matrix = alloc((int64_t)n * n, sizeof(int));
-    k.force = alloc(n, sizeof(int));
-    k.solved = alloc(n, sizeof(int));
-    return k;
-}
-
-static void end(making *k) {
-    graph_free(k->graph);
-    free(k->symbols.first);
-    free(k->symbols.order);
-    free(k->symbols.parameter);
-    free(k->symbols.let);
-    free(k->matrix);
-    free(k->force);
-    free(k->solved);
+    struct arena *arena = arena_new();
+    graph *g = graph_new();
+    return (making){.arena = arena,
+                    .symbols = {.graph = g,
+                                .instance = inst,
+                                .first = not_made(arena, n),
+                                .order = not_made(arena, n),
+                                .parameter = not_made(arena, of->parameter_count),
+                                .let = not_made(arena, of->let_count),
+                                .errors = errors},
+                    .graph = g,
+                    .instance = inst,
+                    .count = n,
+                    .matrix = not_made(arena, (int64_t)n * n),
+                    .force = not_made(arena, n),
+                    .solved = not_made(arena, n),
+                    .errors = errors};
 }
 
 exact_motion *exact_motion_make(const instance *inst, diags *errors) {
@@ -375,7 +355,8 @@ exact_motion *exact_motion_make(const instance *inst, diags *errors) {
         exact_motion_free(m);
         m = NULL;
     }
-    end(&k);
+    graph_free(k.graph);
+    arena_free(k.arena);
     return m;
 }
 

@@ -81,17 +81,6 @@ static void orthogonal_axes(int n, const double *of, const double *radii, double
     free(v);
 }
 
-/* Computes to[n] = a x. */
-static void frame_apply(int n, const enclosure *a, const enclosure *x, enclosure *to) {
-    for (int i = 0; i < n; i++) {
-        enclosure sum = enclosure_of(0.0);
-        for (int k = 0; k < n; k++) {
-            sum = enclosure_add(sum, enclosure_mul(a[i * n + k], x[k]));
-        }
-        to[i] = sum;
-    }
-}
-
 /* Returns the largest absolute row sum of I - A^T A. */
 static double off_orthogonal(int n, const double *axes) {
     double most = 0.0;
@@ -105,7 +94,7 @@ static double off_orthogonal(int n, const double *axes) {
             }
             row = enclosure_above(row + enclosure_size(sum));
         }
-        most = row > most || !(row - row == 0.0) ? row : most;
+        most = row > most || !isfinite(row) ? row : most;
     }
     return most;
 }
@@ -121,8 +110,7 @@ static bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
     for (int j = 0; j < n; j++) {
         double most = 0.0;
         for (int i = 0; i < n; i++) {
-            const double size = axes[j * n + i] < 0.0 ? -axes[j * n + i] : axes[j * n + i];
-            most = enclosure_larger(most, size);
+            most = enclosure_larger(most, fabs(axes[j * n + i]));
         }
         const double wide = enclosure_above(off * most);
         for (int i = 0; i < n; i++) {
@@ -152,15 +140,13 @@ void zonotope_free(zonotope *z) {
     }
 }
 
-static double size_of(double x) { return x < 0.0 ? -x : x; }
-
 static double sum_up(double a, double b) { return b == 0.0 ? a : enclosure_above(a + b); }
 
 void zonotope_box(const zonotope *z, enclosure *box) {
     for (int i = 0; i < z->n; i++) {
         double radius = 0.0;
         for (int k = 0; k < z->count; k++) {
-            radius = sum_up(radius, size_of(z->generator[k * z->n + i]));
+            radius = sum_up(radius, fabs(z->generator[k * z->n + i]));
         }
         box[i] = enclosure_add(enclosure_of(z->drift[i]), (enclosure){-radius, radius});
     }
@@ -231,19 +217,18 @@ static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off) {
     const int n = z->n;
     enclosure *inverse = alloc((int64_t)n * n, sizeof *inverse);
-    enclosure *drift = alloc(n, sizeof *drift);
     double *radius = alloc(n, sizeof *radius);
     find_axes(z, axes, inverse);
     reach(z, inverse, 0, radius);
     for (int i = 0; i < n; i++) {
-        drift[i] = enclosure_of(z->drift[i]);
-    }
-    frame_apply(n, inverse, drift, off);
-    for (int i = 0; i < n; i++) {
-        off[i] = enclosure_add(off[i], (enclosure){-radius[i], radius[i]});
+        enclosure along = enclosure_of(0.0);
+        for (int k = 0; k < n; k++) {
+            along =
+                enclosure_add(along, enclosure_mul(inverse[i * n + k], enclosure_of(z->drift[k])));
+        }
+        off[i] = enclosure_add(along, (enclosure){-radius[i], radius[i]});
     }
     free(inverse);
-    free(drift);
     free(radius);
 }
 
@@ -265,7 +250,7 @@ static void sort_by_size(zonotope *z) {
     for (int k = 0; k < z->count; k++) {
         order[k].which = k;
         for (int i = 0; i < n; i++) {
-            order[k].size += size_of(z->generator[k * n + i]);
+            order[k].size += fabs(z->generator[k * n + i]);
         }
     }
     qsort(order, (size_t)z->count, sizeof *order, by_size);
@@ -421,11 +406,12 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
     return taylor_find(series, x);
 }
 
-/* Encloses the Taylor polynomial from the whole box over the whole step: the sum of [0, h]^k x_k over k <= order. */
-static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
-    enclosure sum = taylor_of(t->all, i, t->order)[0];
-    for (int k = t->order - 1; k >= 0; k--) {
-        sum = enclosure_add(taylor_of(t->all, i, k)[0], enclosure_mul(span, sum));
+/* Encloses the Taylor polynomial of state i (entry 0), or of a derivative of it, from the whole box: the sum of
+ * tau^k x_k over k <= order. */
+static enclosure polynomial(const flowpipe *t, int i, int entry, int order, enclosure tau) {
+    enclosure sum = taylor_of(t->all, i, order)[entry];
+    for (int k = order - 1; k >= 0; k--) {
+        sum = enclosure_add(taylor_of(t->all, i, k)[entry], enclosure_mul(tau, sum));
     }
     return sum;
 }
@@ -442,7 +428,7 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
     for (int i = 0; i < t->states; i++) {
-        const enclosure to = polynomial_over(t, i, span);
+        const enclosure to = polynomial(t, i, 0, t->order, span);
         t->stay[i] =
             enclosure_widened(to, REMAINDER * (enclosure_size(to) + t->largest[i]) * 16.0 + 1e-300);
     }
@@ -453,7 +439,7 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     double most = 0.0;
     for (int i = 0; i < t->states; i++) {
         const enclosure rest = remainder_of(t, i, span);
-        const enclosure to = enclosure_add(polynomial_over(t, i, span), rest);
+        const enclosure to = enclosure_add(polynomial(t, i, 0, t->order, span), rest);
         const double request =
             REMAINDER * enclosure_larger(t->largest[i], enclosure_size(t->stay[i])) + 1e-300;
         good = good && enclosure_inside(to, t->stay[i]);
@@ -461,13 +447,6 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     }
     *excess = most;
     return good;
-}
-
-/* Returns the next trial's length, 0.4 to 1.5 times h_s, from the order of the remainder. */
-static double changed(double h_s, double excess, int order) {
-    const double factor =
-        excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(order + 1)) : 2.0;
-    return h_s * enclosure_larger(0.4, enclosure_lesser(factor, 1.5));
 }
 
 static void find_turns(flowpipe *t) {
@@ -500,7 +479,11 @@ double flowpipe_open(flowpipe *t, double most_s) {
     for (int trial = 0; good && trial < TRIALS && h_s >= STEP_LEAST_S; trial++) {
         double excess;
         const bool stay = stays(t, h_s, &excess);
-        t->guess_s = changed(h_s, stay ? excess : enclosure_larger(excess, 1e6), t->order);
+        excess = stay ? excess : enclosure_larger(excess, 1e6);
+        /* the next trial's length, from the order of the remainder */
+        const double factor =
+            excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(t->order + 1)) : 2.0;
+        t->guess_s = h_s * enclosure_larger(0.4, enclosure_lesser(factor, 1.5));
         if (stay) {
             t->open_s = h_s;
             zonotope_frame(t->off, t->axes, t->along);
@@ -531,14 +514,6 @@ static enclosure turn_at(const flowpipe *t, int entry, enclosure tau) {
     return sum;
 }
 
-static enclosure slope_at(const flowpipe *t, int i, int j, enclosure tau) {
-    enclosure sum = taylor_of(t->all, i, t->first)[1 + j];
-    for (int k = t->first - 1; k >= 0; k--) {
-        sum = enclosure_add(taylor_of(t->all, i, k)[1 + j], enclosure_mul(tau, sum));
-    }
-    return sum;
-}
-
 void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x) {
     for (int i = 0; i < t->states; i++) {
         x[i] = enclosure_add(enclosure_of(t->centre[i]), way_at(t, i, tau_s));
@@ -547,14 +522,6 @@ void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x) {
             x[i] = enclosure_add(x[i], enclosure_mul(turn, t->along[j]));
         }
     }
-}
-
-static bool all_finite(const flowpipe *t) {
-    bool good = true;
-    for (int i = 0; i < t->states; i++) {
-        good = good && enclosure_is_finite(t->box[i]);
-    }
-    return good;
 }
 
 /* Moves the centre by the middle of the displacement, so that little precision is lost. left[]: its other part. */
@@ -572,8 +539,9 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     const int n = t->states;
     enclosure *slope = alloc((int64_t)n * n, sizeof *slope);
     enclosure *left = alloc(n, sizeof *left);
+    bool finite = true;
     for (int i = 0; i < n * n; i++) {
-        slope[i] = slope_at(t, i / n, i % n, tau_s);
+        slope[i] = polynomial(t, i / n, 1 + i % n, t->first, tau_s);
     }
     go_to(t, tau_s, left);
     zonotope_map(t->off, slope, left);
@@ -584,10 +552,11 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
         /* the derivatives must hold on the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);
         t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
+        finite = finite && enclosure_is_finite(t->box[i]);
     }
     free(slope);
     free(left);
     t->open_s = 0.0;
     t->steps++;
-    return all_finite(t);
+    return finite;
 }

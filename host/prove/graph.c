@@ -96,7 +96,7 @@ static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
     const bool points = enclosure_is_point(x) && enclosure_is_point(y);
-    const double size = (a < 0.0 ? -a : a) + (b < 0.0 ? -b : b);
+    const double size = fabs(a) + fabs(b);
     const bool plain = points && size < 0x1p300 && (op == '+' || op == '-' || size > 0x1p-300);
     if (op == '+' || op == '-') {
         const double s = a + b;
@@ -115,8 +115,7 @@ static enclosure folded(char op, enclosure x, enclosure y) {
     const double off =
         ((left_high * b_high - whole) + left_high * (b - b_high) + (left - left_high) * b_high) +
         (left - left_high) * (b - b_high);
-    const double sized = whole < 0.0 ? -whole : whole;
-    return plain && left * b == whole && off == 0.0 && sized > 0x1p-600
+    return plain && left * b == whole && off == 0.0 && fabs(whole) > 0x1p-600
                ? enclosure_of(r)
                : (op == '*' ? enclosure_mul(x, y) : enclosure_div(x, y));
 }
@@ -259,18 +258,29 @@ int graph_power(graph *g, int a, enclosure exponent) {
 /* === derivatives ============================================================================== */
 
 /* A walk that makes a new node for each old node. The new nodes are added to the same graph, but never visited. */
-typedef struct rewriting {
+typedef struct rewriting rewriting;
+struct rewriting {
     graph *graph;
     int *to; /* [number of old nodes] the new node; -1: not made yet */
     int variable;
-} rewriting;
+    int (*make)(rewriting *r, int a); /* makes the new node */
+};
 
-static rewriting begin(graph *g, int variable) {
-    rewriting r = {g, alloc(g->count, sizeof(int)), variable};
+static int rewritten(rewriting *r, int a) {
+    if (r->to[a] < 0) {
+        r->to[a] = r->make(r, a);
+    }
+    return r->to[a];
+}
+
+static int rewrite(graph *g, int a, int variable, int (*make)(rewriting *r, int a)) {
+    rewriting r = {g, alloc(g->count, sizeof *r.to), variable, make};
     for (int i = 0; i < g->count; i++) {
         r.to[i] = -1;
     }
-    return r;
+    const int made = rewritten(&r, a);
+    free(r.to);
+    return made;
 }
 
 /* The derivative of a sine, cosine, exponential and so on by its argument. */
@@ -294,37 +304,25 @@ static int outer_slope(graph *g, int a) {
     return a;
 }
 
-static int slope(rewriting *r, int a);
-
-/* (u / v)' = (u' - (u / v) v') / v */
-static int ratio_slope(rewriting *r, int a) {
+static int slope(rewriting *r, int a) {
     graph *g = r->graph;
     const node n = g->node[a];
-    const int above = slope(r, n.left);
-    const int below = slope(r, n.right);
-    return graph_div(g, graph_sub(g, above, graph_mul(g, a, below)), n.right);
-}
-
-static int slope_found(rewriting *r, int a) {
-    graph *g = r->graph;
-    const node n = g->node[a];
+    const bool is_leaf = n.kind == NODE_NUMBER || n.kind == NODE_VARIABLE;
+    const int left = is_leaf ? -1 : rewritten(r, n.left);
     switch (n.kind) {
     case NODE_NUMBER: return graph_whole(g, 0);
     case NODE_VARIABLE: return graph_whole(g, n.left == r->variable ? 1 : 0);
-    case NODE_SUM: {
-        const int left = slope(r, n.left);
-        return graph_add(g, left, slope(r, n.right));
-    }
-    case NODE_DIFFERENCE: {
-        const int left = slope(r, n.left);
-        return graph_sub(g, left, slope(r, n.right));
-    }
+    case NODE_SUM: return graph_add(g, left, rewritten(r, n.right));
+    case NODE_DIFFERENCE: return graph_sub(g, left, rewritten(r, n.right));
     case NODE_PRODUCT: {
-        const int left = graph_mul(g, slope(r, n.left), n.right);
-        return graph_add(g, left, graph_mul(g, n.left, slope(r, n.right)));
+        const int first = graph_mul(g, left, n.right);
+        return graph_add(g, first, graph_mul(g, n.left, rewritten(r, n.right)));
     }
-    case NODE_MULTIPLE: return graph_mul(g, graph_number(g, n.number), slope(r, n.left));
-    case NODE_RATIO: return ratio_slope(r, a);
+    case NODE_MULTIPLE: return graph_mul(g, graph_number(g, n.number), left);
+    case NODE_RATIO: { /* (u / v)' = (u' - (u / v) v') / v */
+        const int below = graph_mul(g, a, rewritten(r, n.right));
+        return graph_div(g, graph_sub(g, left, below), n.right);
+    }
     case NODE_SQUARE:
     case NODE_SINE:
     case NODE_COSINE:
@@ -332,34 +330,19 @@ static int slope_found(rewriting *r, int a) {
     case NODE_LOG:
     case NODE_POWER: break;
     }
-    const int inner = slope(r, n.left);
-    return graph_is_zero(g, inner) ? inner : graph_mul(g, outer_slope(g, a), inner);
+    return graph_is_zero(g, left) ? left : graph_mul(g, outer_slope(g, a), left);
 }
 
-static int slope(rewriting *r, int a) {
-    if (r->to[a] < 0) {
-        r->to[a] = slope_found(r, a);
-    }
-    return r->to[a];
-}
+int graph_slope(graph *g, int a, int variable) { return rewrite(g, a, variable, slope); }
 
-int graph_slope(graph *g, int a, int variable) {
-    rewriting r = begin(g, variable);
-    const int found = slope(&r, a);
-    free(r.to);
-    return found;
-}
-
-static int without(rewriting *r, int a);
-
-static int without_found(rewriting *r, int a) {
+static int without(rewriting *r, int a) {
     graph *g = r->graph;
     const node n = g->node[a];
     const bool has_left = n.kind != NODE_NUMBER && n.kind != NODE_VARIABLE;
     const bool has_right = n.kind == NODE_SUM || n.kind == NODE_DIFFERENCE ||
                            n.kind == NODE_PRODUCT || n.kind == NODE_RATIO;
-    const int left = has_left ? without(r, n.left) : -1;
-    const int right = has_right ? without(r, n.right) : -1;
+    const int left = has_left ? rewritten(r, n.left) : -1;
+    const int right = has_right ? rewritten(r, n.right) : -1;
     switch (n.kind) {
     case NODE_NUMBER: return a;
     case NODE_VARIABLE: return n.left >= r->variable ? graph_whole(g, 0) : a;
@@ -378,19 +361,7 @@ static int without_found(rewriting *r, int a) {
     return a;
 }
 
-static int without(rewriting *r, int a) {
-    if (r->to[a] < 0) {
-        r->to[a] = without_found(r, a);
-    }
-    return r->to[a];
-}
-
-int graph_without(graph *g, int a, int first) {
-    rewriting r = begin(g, first);
-    const int found = without(&r, a);
-    free(r.to);
-    return found;
-}
+int graph_without(graph *g, int a, int first) { return rewrite(g, a, first, without); }
 
 /* === conversion of a model's expressions ====================================================== */
 
@@ -431,16 +402,6 @@ static int hyperbolic(graph *g, int a, bool sine) {
     const int down = graph_exp(g, graph_neg(g, a));
     return graph_mul(g, graph_number(g, enclosure_of(0.5)),
                      sine ? graph_sub(g, up, down) : graph_add(g, up, down));
-}
-
-/* Functions with corners are possible for numbers only. */
-static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
-    graph *g = s->graph;
-    if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
-        return refused(s, tree, function_name(tree->function));
-    }
-    const enclosure x = g->node[a].number;
-    return graph_number(g, enclosure_call(tree->function, x, b >= 0 ? g->node[b].number : x));
 }
 
 /* Returns a bound on the angle in [-pi/2, pi/2] whose sine (or tangent), which increases there, is x. It tests angles
@@ -488,20 +449,12 @@ static enclosure inverse_ratio(enclosure y, enclosure x) {
     return enclosure_is_zero(y) && x.high < 0.0 ? enclosure_pi() : enclosure_of((double)NAN);
 }
 
-/* Inverse functions are possible for numbers only. */
-static int read_inverse(reader_symbols *s, const expr *tree, int a, int b) {
-    graph *g = s->graph;
-    if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
-        return refused(s, tree, function_name(tree->function));
-    }
-    const enclosure x = g->node[a].number;
-    if (tree->function == FN_ATAN2) {
-        return graph_number(g, inverse_ratio(x, g->node[b].number));
-    }
-    const enclosure angle = inverse(x, tree->function == FN_ATAN);
-    return graph_number(g, tree->function == FN_ACOS
-                               ? enclosure_sub(enclosure_times(enclosure_pi(), 0.5), angle)
-                               : angle);
+static enclosure called(function_id function, enclosure x, enclosure y) {
+    const enclosure right = enclosure_times(enclosure_pi(), 0.5);
+    return function == FN_ATAN2                         ? inverse_ratio(x, y)
+           : function == FN_ACOS                        ? enclosure_sub(right, inverse(x, false))
+           : function == FN_ASIN || function == FN_ATAN ? inverse(x, function == FN_ATAN)
+                                                        : enclosure_call(function, x, y);
 }
 
 static int read_call(reader_symbols *s, const expr *tree) {
@@ -524,19 +477,18 @@ static int read_call(reader_symbols *s, const expr *tree) {
     case FN_ABS:
     case FN_SIGN:
     case FN_MIN:
-    case FN_MAX: return read_corner(s, tree, a, b);
+    case FN_MAX:
     case FN_ASIN:
     case FN_ACOS:
     case FN_ATAN:
-    case FN_ATAN2: return read_inverse(s, tree, a, b);
+    case FN_ATAN2: break;
     }
-    return refused(s, tree, function_name(tree->function));
-}
-
-static int read_power(reader_symbols *s, int base, int exponent) {
-    graph *g = s->graph;
-    return graph_is_number(g, exponent) ? graph_power(g, base, g->node[exponent].number)
-                                        : graph_exp(g, graph_mul(g, exponent, graph_log(g, base)));
+    /* functions with corners, and inverse functions, are possible for numbers only */
+    if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
+        return refused(s, tree, function_name(tree->function));
+    }
+    const enclosure x = g->node[a].number;
+    return graph_number(g, called(tree->function, x, b >= 0 ? g->node[b].number : x));
 }
 
 int read_node(reader_symbols *s, const expr *tree) {
@@ -560,7 +512,9 @@ int read_node(reader_symbols *s, const expr *tree) {
     case EXPR_SUB: return graph_sub(g, a, b);
     case EXPR_MUL: return graph_mul(g, a, b);
     case EXPR_DIV: return graph_div(g, a, b);
-    case EXPR_POW: return read_power(s, a, b);
+    case EXPR_POW:
+        return graph_is_number(g, b) ? graph_power(g, a, g->node[b].number)
+                                     : graph_exp(g, graph_mul(g, b, graph_log(g, a)));
     case EXPR_NEG: return graph_neg(g, a);
     case EXPR_NUMBER:
     case EXPR_SYMBOL:

@@ -37,33 +37,25 @@ static void add_product(enclosure *to, enclosure a, enclosure b) {
     }
 }
 
-/* to += number * a */
-static void dual_add_multiple(enclosure *to, enclosure number, const enclosure *a, int width) {
-    for (int j = 0; j < width; j++) {
-        add_product(&to[j], number, a[j]);
-    }
-}
-
-/* to += a b */
-static void dual_add_product(enclosure *to, const enclosure *a, const enclosure *b, int width) {
-    const enclosure x = a[0];
-    const enclosure y = b[0];
-    add_product(&to[0], x, y);
-    for (int j = 1; j < width; j++) {
-        add_product(&to[j], a[j], y);
-        add_product(&to[j], x, b[j]);
-    }
-}
-
-static void dual_add_products(enclosure *to, enclosure number, const enclosure *a,
-                              const enclosure *b, int width) {
-    const enclosure x = enclosure_mul(number, a[0]);
-    const enclosure y = enclosure_mul(number, b[0]);
+/* The value: to += x b. The derivatives: to += x b + y a. */
+static void add_products(enclosure *to, enclosure x, const enclosure *b, enclosure y,
+                         const enclosure *a, int width) {
     add_product(&to[0], x, b[0]);
     for (int j = 1; j < width; j++) {
         add_product(&to[j], a[j], y);
         add_product(&to[j], x, b[j]);
     }
+}
+
+/* to += a b */
+static void dual_add_product(enclosure *to, const enclosure *a, const enclosure *b, int width) {
+    add_products(to, a[0], b, b[0], a, width);
+}
+
+/* to += number a b */
+static void dual_add_products(enclosure *to, enclosure number, const enclosure *a,
+                              const enclosure *b, int width) {
+    add_products(to, enclosure_mul(number, a[0]), b, enclosure_mul(number, b[0]), a, width);
 }
 
 static void dual_scale(enclosure *to, enclosure number, int width) {
@@ -247,7 +239,11 @@ static void find(const taylor *t, int self, int k) {
         dual_take_from(to, at(t, n->left, k), width_of(t, k));
         break;
     case NODE_PRODUCT: product(t, n, k, to); break;
-    case NODE_MULTIPLE: dual_add_multiple(to, n->number, at(t, n->left, k), width_of(t, k)); break;
+    case NODE_MULTIPLE:
+        for (int j = 0; j < width_of(t, k); j++) {
+            add_product(&to[j], n->number, at(t, n->left, k)[j]);
+        }
+        break;
     case NODE_SQUARE: square(t, n, k, to); break;
     case NODE_RATIO: ratio(t, n, self, k, to); break;
     case NODE_SINE: break;
@@ -256,15 +252,6 @@ static void find(const taylor *t, int self, int k) {
     case NODE_LOG: logarithm(t, n, self, k, to); break;
     case NODE_POWER: power(t, n, self, k, to); break;
     }
-}
-
-static bool all_finite(const taylor *t) {
-    const int64_t count = (int64_t)t->motion->nodes * (t->order + 1) * t->width;
-    bool good = true;
-    for (int64_t i = 0; i < count && good; i++) {
-        good = enclosure_is_finite(t->value[i]);
-    }
-    return good;
 }
 
 bool taylor_find(taylor *t, const enclosure *x) {
@@ -281,7 +268,12 @@ bool taylor_find(taylor *t, const enclosure *x) {
             find(t, i, k);
         }
     }
-    return all_finite(t);
+    const int64_t count = (int64_t)t->motion->nodes * (t->order + 1) * t->width;
+    bool finite = true;
+    for (int64_t i = 0; i < count && finite; i++) {
+        finite = enclosure_is_finite(t->value[i]);
+    }
+    return finite;
 }
 
 /* The products of enclosures for a node's coefficients up to this order: coefficient k is a sum of k + 1 products. */

@@ -409,8 +409,8 @@ static bool see(void *of, uint64_t step) {
     const books *b = m->verdict->books;
     run_checks_enter(m->verdict);
     m->good = b == NULL || !b->undefined;
-    if (!m->good && !nonfinite_energies(m->image, m->sweep->kind, b->angle_rad, b->real,
-                                        b->undefined_s, m->errors)) {
+    if (!m->good &&
+        !nonfinite_energies(m->image, m->sweep->kind, b->state, b->undefined_s, m->errors)) {
         fprintf(m->reason, "the energies are not finite numbers at t = %.9g s", b->undefined_s);
     }
     if (m->good && m->series && step >= m->from) {

@@ -345,7 +345,7 @@ static remainders book(const char *text, by_hand *energy_J, double step_s) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         books_enter(b, m.kind, m.run);
         if (step % 2 == 0) { /* Simpson's rule needs pairs of steps */
-            r.summary_J = fmax(r.summary_J, fabs(books_account(b).left));
+            r.summary_J = fmax(r.summary_J, fabs(books_left_J(b)));
         }
         r.ledger_J = fmax(r.ledger_J, fabs(ledger_left_J(&m)));
     }

@@ -277,7 +277,7 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
     double exact[2 * MOST];
     fixed_plan *p = planned(d);
     for (int i = 0; i < d->image->reals + d->image->inputs; i++) {
-        TEST_ASSERT_EQUAL_INT(declared, p->declared[i]);
+        TEST_ASSERT_EQUAL_INT(declared, p->image->range[i].declared);
     }
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, run(&engine_fixed, d->image, fixed, NULL), text);
     (void)run(&engine_double, d->image, exact, NULL);
