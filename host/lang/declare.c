@@ -6,7 +6,7 @@
 /* Returns the output of this name, or NULL (reported) if the name is unknown or not an output. */
 static const symbol *find_output(parser *in, const token *name) {
     const mechanism *inside = in->builder->made;
-    const named *found = names_find(in->builder->names, name->text, name->length);
+    const named *found = names_find(in->names, name->text, name->length);
     const char *words = token_words(in, name);
     if (found != NULL && !found->is_placeholder) {
         if (found->symbol.kind == SYM_OUTPUT && name->primes == 0) {
@@ -118,14 +118,14 @@ static named *claim_name(parser *in, const token *name) {
                    "a declared name carries no primes");
         return NULL;
     }
-    named *found = names_find(in->builder->names, name->text, name->length);
+    named *found = names_find(in->names, name->text, name->length);
     if (found != NULL && !found->is_placeholder) {
         diag_error(in->diags, name->at, NULL, "'%s' was already declared in line %d",
                    found->symbol.name, found->symbol.at.line);
         return NULL;
     }
     if (found == NULL) {
-        found = names_add(in->builder->names, name->text, name->length);
+        found = names_add(in->names, name->text, name->length);
     }
     found->is_placeholder = false;
     return found;
@@ -246,7 +246,7 @@ static bool parse_rate(parser *in, symbol *made) {
     if (!take_name(in, "rate", &name)) {
         return false;
     }
-    named *found = names_find(in->builder->names, name.text, name.length);
+    named *found = names_find(in->names, name.text, name.length);
     if (name.primes > 0 || word_is_reserved(name.text, name.length) ||
         (found != NULL && found->symbol.kind != SYM_INPUT && !found->is_placeholder)) {
         diag_error(in->diags, name.at, "input L rate v = 0.5 [m]; input v = 0 [m/s]",
@@ -254,7 +254,7 @@ static bool parse_rate(parser *in, symbol *made) {
         return true;
     }
     if (found == NULL) {
-        found = names_add(in->builder->names, name.text, name.length);
+        found = names_add(in->names, name.text, name.length);
         found->is_placeholder = true; /* until the name is declared */
         found->symbol.kind = SYM_INPUT;
         found->symbol.at = name.at;

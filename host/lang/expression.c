@@ -48,7 +48,7 @@ static const char *rate_hint(parser *in, const token *name) {
     static const char *const forms[][3] = {
         {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
         {"d", "", "'"},   {"dd", "", "''"},  {"d", "dt", "'"},   {"d", "_dt", "'"}};
-    for (size_t i = 0; i < sizeof forms / sizeof forms[0] && in->names != NULL; i++) {
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         const size_t before = strlen(forms[i][0]);
         const size_t behind = strlen(forms[i][1]);
         if (name->length > before + behind && strncmp(name->text, forms[i][0], before) == 0 &&
@@ -223,7 +223,7 @@ static const expr *expr_name(parser *in, const token *name) {
         report_reserved(in, name);
         return unknown_value(made);
     }
-    named *found = in->names == NULL ? NULL : names_find(in->names, name->text, name->length);
+    named *found = names_find(in->names, name->text, name->length);
     if (found == NULL) {
         if (in->names == NULL) {
             diag_error(in->diags, name->at, NULL, "only numbers can stand here");
@@ -231,7 +231,7 @@ static const expr *expr_name(parser *in, const token *name) {
         }
         report_unknown(in, name);
         if (in->builder != NULL && !in->all_effects) {
-            names_add_placeholder(in->builder->names, name);
+            names_add_placeholder(in->names, name);
         }
         return unknown_value(made);
     }
@@ -290,7 +290,7 @@ void no_such_symbol(parser *in, const mechanism *of, const token *name) {
 }
 
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
-    const named *found = names_find(in->builder->names, name->text, name->length);
+    const named *found = names_find(in->names, name->text, name->length);
     if (found == NULL || (found->is_placeholder && found->symbol.kind == SYM_INPUT)) {
         no_such_coordinate(in, name);
     } else if (!found->is_placeholder && !symbol_moves(&found->symbol)) {
@@ -448,8 +448,7 @@ static const expr *parse_named(parser *in) {
         if (hint == NULL) {
             hint = parser_nearest(in, &search, NULL);
         }
-        if (hint == NULL && in->names != NULL &&
-            names_find(in->names, name.text, name.length) != NULL) {
+        if (hint == NULL && names_find(in->names, name.text, name.length) != NULL) {
             hint = "write products with *; a coordinate has no (t)";
         } else if (hint == NULL) {
             hint = "the functions are";

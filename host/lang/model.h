@@ -191,8 +191,8 @@ typedef struct mechanism {
     int noise_count;
     const effect *effects;
     int effect_count;
-    bool is_system;            /* given by state/equation, not by T, V, F, Q */
-    const struct names *names; /* finds symbols by name (parser.h) */
+    bool is_system;      /* given by state/equation, not by T, V, F, Q */
+    struct names *names; /* finds symbols by name (parser.h) */
 } mechanism;
 
 enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX = 1000 };

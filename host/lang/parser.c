@@ -31,7 +31,7 @@ static size_t slot_of(const names *all, const char *text, size_t length) {
 }
 
 named *names_find(const names *all, const char *text, size_t length) {
-    named *each = all->slots[slot_of(all, text, length)];
+    named *each = all == NULL ? NULL : all->slots[slot_of(all, text, length)];
     while (each != NULL &&
            (strncmp(each->symbol.name, text, length) != 0 || each->symbol.name[length] != '\0')) {
         each = each->next;
@@ -262,7 +262,7 @@ const char *parser_operator_hint(const parser *in) {
     if (isdigit((unsigned char)*begin) && (unit_parse(name, unit, &scale, &unsaid) ||
                                            unit_parse(name, unit = length, &scale, &unsaid))) {
         as_unit = arena_words(in->arena, "%.*s [%.*s]", before, begin, (int)unit, name);
-        if (in->names == NULL || names_find(in->names, name, length) == NULL) {
+        if (names_find(in->names, name, length) == NULL) {
             return arena_words(in->arena, "write %s", as_unit);
         }
     }
@@ -337,7 +337,7 @@ bool statement_unknown(parser *in, unsigned where) {
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;
         if (fresh && (declared != &word || parser_is_sign(in, '='))) {
-            names_add_placeholder(in->builder->names, declared);
+            names_add_placeholder(in->names, declared);
         }
     }
     const statement_word *elsewhere = token_statement(&word);

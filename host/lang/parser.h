@@ -22,6 +22,7 @@ typedef struct named {
 typedef struct names names;
 
 names *names_new(struct arena *arena);
+/* Returns the entry of this name, or NULL. `all` may be NULL. */
 named *names_find(const names *all, const char *text, size_t length);
 /* Adds an entry. The name must be new. */
 named *names_add(names *all, const char *text, size_t length);
@@ -46,7 +47,6 @@ typedef enum expr_context {
 /* The current mechanism. */
 typedef struct builder {
     mechanism *made;
-    struct names *names;
     place energy_at[3]; /* first `T =`, `V =`, `F =`; line 0 without one */
     place *force_at;    /* [COORDINATES_MAX] first `Q(c) =` */
     int equation_count;
@@ -88,10 +88,10 @@ typedef struct parser {
     const char *condition_at;  /* a parenthesis at this place of the text may enclose a condition */
     int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
-    bool bare_units; /* a unit without brackets may follow a number, up to the end of the text */
-    const struct names *names; /* NULL: no names allowed */
-    builder *builder;          /* the current mechanism, or that of the current scene, or NULL */
-    draft *draft;              /* the current scene, or NULL */
+    bool bare_units;  /* a unit without brackets may follow a number, up to the end of the text */
+    names *names;     /* those of the mechanism; NULL: no names allowed */
+    builder *builder; /* the current mechanism, or that of the current scene, or NULL */
+    draft *draft;     /* the current scene, or NULL */
     builder **builders;
     int builder_count;
     pending_scene *pending;

@@ -223,7 +223,7 @@ static void choose_mechanism(parser *in, builder *chosen) {
     made->with = arena_alloc(in->arena, (size_t)of->effect_count * sizeof *made->with);
     made->conserve = arena_alloc(in->arena, (size_t)of->coordinate_count * sizeof *made->conserve);
     in->builder = chosen;
-    in->names = chosen->names;
+    in->names = of->names;
 }
 
 static bool read_use(parser *in, const statement_word *word) {

@@ -307,12 +307,11 @@ static builder *begin_mechanism(parser *in, place at) {
     made->made->at = at;
     made->made->name = "";
     made->made->title = "";
-    made->names = names_new(in->arena);
-    made->made->names = made->names;
+    made->made->names = names_new(in->arena);
     made->force_at = arena_alloc(in->arena, COORDINATES_MAX * sizeof *made->force_at);
     in->builders = arena_push(in->arena, in->builders, &in->builder_count, &made, sizeof made);
     in->builder = made;
-    in->names = made->names;
+    in->names = made->made->names;
     return made;
 }
 
