@@ -22,9 +22,9 @@ typedef struct expr expr;
 typedef struct symbol {
     symbol_kind kind;
     const char *name;
-    const char *text;    /* the description in quotes, or "" */
-    const char *unit;    /* the declared unit, without blanks, or ""; for a parameter or input, the
-                       * unit after the only number of its value */
+    const char *text; /* the description in quotes, or "" */
+    /* the declared unit without blanks, or "". A parameter or input has the unit of its value if that is one number. */
+    const char *unit;
     unit_scale declared; /* scale of the declared unit; divisor 0 if no unit is declared */
     dimension dim;       /* dimension of the symbol without primes */
     bool is_angle;       /* coordinate or state: declared in rad, deg or rev */
@@ -34,8 +34,8 @@ typedef struct symbol {
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* Inside a step, a driven coordinate replaces an input with a rate. The mechanism lists it after the declared
-     * coordinates. The input and its rate point to this coordinate, the coordinate points to the input. Else NULL. */
+    /* Inside a step, a driven coordinate replaces an input that has a rate. It comes after the declared coordinates.
+     * `driven` of the input or its rate: this coordinate. Of this coordinate: the input. Of other symbols: NULL. */
     const struct symbol *driven;
 } symbol;
 
@@ -44,10 +44,10 @@ static inline bool symbol_moves(const symbol *s) {
     return s->kind == SYM_COORDINATE || s->kind == SYM_STATE;
 }
 
-/* Returns the driven coordinate of an input with a rate (*primes = 0), or of such a rate (*primes = 1); else `s`. */
+/* Returns the driven coordinate if `s` is its input (*primes = 0) or that input's rate (*primes = 1). Else: `s`. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
-/* Returns the input that is the acceleration of a driven coordinate; NULL if its rate is constant inside a step. */
+/* Returns the input that is the acceleration of `driven`; NULL if the rate of `driven` is constant inside a step. */
 const symbol *symbol_acceleration(const symbol *driven);
 
 /* Writes a hint that declares the rate of an input to buffer[RATE_HINT_SIZE]: two statements that can be pasted. */
@@ -79,10 +79,10 @@ struct expr {
     const expr *right;
     place at; /* place of the operator or the operand, for messages */
     dimension dim;
-    int height;          /* 1 for a leaf; for a let or output, its expression's height + 1 */
-    int order;           /* most primes on any coordinate or state, also within lets */
+    int height;          /* leaf: 1; name of a let or output: 1 + height of its expression */
+    int order;           /* highest derivative of a coordinate or state, also within lets */
     unsigned uses;       /* USES_ bits, also within lets */
-    bool is_condition;   /* above zero if true; not an operand of arithmetic */
+    bool is_condition;   /* a condition: true while above zero; arithmetic refuses conditions */
     const symbol *angle; /* an angle in the expression that is not declared in rad, or NULL */
 };
 
@@ -91,7 +91,7 @@ enum {
     USES_PARAMETER = 2,
     USES_INPUT = 4,
     USES_OUTPUT = 8,
-    USES_UNIT = 16 /* the expression contains a number with a unit */
+    USES_UNIT = 16 /* has a number with a unit, or needs no unit (a let, an angle in radians) */
 };
 
 /* Greatest height of an expression tree, lets included; bounds the recursion. */
@@ -137,8 +137,8 @@ typedef struct contact_statement {
     const expr *restitution;     /* stop: restitution, 0 to 1 */
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
-    const expr *normal;     /* friction: normal force, a torque for an angle; below 0 counts as 0 */
-    const expr *condition;  /* hold: active while above zero; `and` is min, `or` is max */
+    const expr *normal;     /* friction: normal force, or torque on an angle; below 0 counts as 0 */
+    const expr *condition;  /* hold: acts while this is above 0; FN_MIN is `and`, FN_MAX is `or` */
     int direction;          /* when: +1 rising, -1 falling, 0 both */
     const assignment *sets; /* when: all values are computed before any is assigned */
     int set_count;
@@ -146,13 +146,13 @@ typedef struct contact_statement {
     place at;
 } contact_statement;
 
-/* Largest numbers in one run: of stops, frictions, holds and whens together, and of values that whens set. */
+/* One run has at most CONTACTS_MAX stops, frictions, holds and whens. Its whens set at most SETS_MAX values. */
 enum { CONTACTS_MAX = 16, SETS_MAX = 128 };
 
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
-    const symbol *record;  /* the output with noise (SYM_RECORD), one for all its noises */
+    const symbol *record;  /* `output` with noise (SYM_RECORD), shared by all noises of `output` */
     const expr *deviation; /* expression of constants, in the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
@@ -235,7 +235,7 @@ typedef struct whirl_model {
 whirl_model *model_parse(const char *file, const char *text, size_t length, diags *diags);
 void model_free(whirl_model *model);
 
-/* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
+/* --- instances: the numbers of a scene or bare mechanism, after the command line's changes ------ */
 
 /* Changes from the command line, as the user typed them ("m=3 [kg]", "theta'=1.2"). A number without a unit has the SI
  * unit of the quantity; it is refused if the declared unit is not SI. */
@@ -249,11 +249,11 @@ typedef struct overrides {
     const char *const *with;
     int with_count; /* effect names added, or "ledger"; "all" adds every effect */
     const char *const *without;
-    int without_count; /* effects, "ledger", "conserve" or "all" (applied first) */
+    int without_count; /* effects, "ledger", "conserve" or "all" (applied before effect names) */
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
     const char *until; /* the end of the scene, or NULL */
     const char *name;  /* replaces the scene's or mechanism's name, or NULL; not copied */
-    bool balance;      /* true: keep a ledger if the run has contacts, also without `with ledger` */
+    bool balance;      /* keep a ledger if the run has contacts and a ledger is possible */
 } overrides;
 
 /* A range in SI numbers, with low < high. */
@@ -265,7 +265,7 @@ typedef struct range_value {
     place at;
 } range_value;
 
-/* A value as written, and its place; `value` is NULL if it is not given. */
+/* An expression (NULL if none was given) and its place for messages. */
 typedef struct given_value {
     const expr *value;
     place at;
@@ -276,21 +276,21 @@ typedef struct instance {
     const scene *scene;           /* NULL for a bare mechanism */
     const char *name;             /* the scene's name, the mechanism's, or overrides.name */
     bool *with;                   /* [effect_count] */
-    const bool *conserve;         /* [coordinate_count] computed from a momentum; NULL: none */
+    const bool *conserve;         /* [coordinate_count] as in the scene; NULL: integrate all */
     bool ledger;                  /* record the balance of energy and momentum */
-    bool balance;                 /* keep a ledger if the run has contacts */
+    bool balance;                 /* as in overrides */
     double *parameter;            /* [parameter_count] SI */
     double *input;                /* [input_count] SI */
-    const expr **parameter_given; /* the expressions that give these values */
+    const expr **parameter_given; /* [parameter_count] expression of each parameter */
     const expr **input_given;
-    given_value **start_given; /* [coordinate_count][order] a start that is not given is 0 */
-    double **start;     /* [coordinate_count][order >= 2] value, rate, ... at the start, SI */
+    given_value **start_given; /* [coordinate_count][order]; if a `value` is NULL, the start is 0 */
+    double **start;     /* [coordinate_count][order, at least 2] initial value, rate, ..., SI */
     int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range; /* [range_count] */
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */
-    folding folding;  /* record of the constant folding in these values */
+    folding folding;  /* digits that constant folding lost in instance_make() */
     whole_ratio step; /* step_s as a fraction */
     uint64_t steps;   /* steps of the run: until_s / step_s, rounded to nearest, at most 2^63 */
     struct arena *arena;
@@ -305,7 +305,7 @@ double instance_value(const instance *of, const symbol *s, int primes);
 /* The inactive effect that declared this symbol; NULL if there is none. */
 const effect *instance_lacks(const instance *instance, const symbol *what);
 
-/* Evaluates a scene to numbers. `scene` NULL: the mechanism, at rest at zero. `changes` may be NULL. NULL on errors. */
+/* Evaluates `scene` or, if NULL, the mechanism at rest at zero. `changes` may be NULL. Returns NULL after an error. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
 /* A copy with parameters, inputs and initial values computed with the current folding_way(). `first` must outlive it.
@@ -313,8 +313,8 @@ instance *instance_make(const mechanism *mechanism, const scene *scene, const ov
 instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 
-/* *seconds: a time from the command line, such as `--from 1.5 [s]`, at least 0. `text` may contain parameters, which
- * have their values in the changed scene. `what`: its name in messages. Returns false after an error. */
+/* Reads *seconds, at least 0, from the command line, such as "1.5 [s]". A parameter in `text` has its value in the
+ * scene with `changes`. `what` names the time in messages. Returns false after an error. */
 bool instance_duration(const mechanism *mechanism, const scene *scene, const overrides *changes,
                        const char *what, const char *text, diags *diags, double *seconds);
 

@@ -13,7 +13,7 @@ expr *expr_new(parser *in, expr_op op, place at) {
     return made;
 }
 
-/* An expression with pi is meant in radians. */
+/* Does the expression contain pi? If so, it counts as given in radians. */
 static bool has_pi(const expr *tree) {
     return tree != NULL && ((tree->op == EXPR_NUMBER && tree->number == PI) || has_pi(tree->left) ||
                             has_pi(tree->right));
@@ -118,7 +118,7 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
 
-/* Reports a bare number that is added to or compared with an angle that is not declared in radians. */
+/* Reports `value` if it is a bare number that is added to or compared with `angle`, an angle not declared in rad. */
 static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
@@ -135,7 +135,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* Reports a missing unit. The hint has the symbol's name if `with_name`; on the command line, if the user typed it. */
+/* Reports a missing unit. `with_name`: the hint may name the symbol. On the command line, `with_name` is ignored. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };
@@ -155,7 +155,7 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
         length--;
     }
     const bool plain = is_bare_number(value) && text[length - 1] != ')';
-    const bool typed = in->builder == NULL; /* on the command line, perhaps after "NAME=" */
+    const bool typed = in->builder == NULL; /* the text is from the command line */
     const char *quote = typed ? "\"" : "";
     const bool has_name =
         typed ? memchr(at.source->text, '=', at.offset) != NULL : with_name && in->around == NULL;
@@ -321,7 +321,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     switch (function_takes(function)) {
     case TAKES_RATIO:
         common_dimension(in, at, left, right, words, "and");
-        made->uses |= USES_UNIT; /* the value is in radians */
+        made->uses |= USES_UNIT; /* the value is in radians, so no unit is missing */
         break;
     case TAKES_CHOICE:
         made->dim = common_dimension(in, at, left, right, words, "and");
@@ -351,7 +351,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
                        dimension_words(in, left->dim));
         }
         if (function == FN_ASIN || function == FN_ACOS || function == FN_ATAN) {
-            made->uses |= USES_UNIT; /* the value is in radians */
+            made->uses |= USES_UNIT; /* the value is in radians, so no unit is missing */
         }
         break;
     }

@@ -111,7 +111,7 @@ const statement_word *token_statement(const token *each) {
 
 bool parser_is_word(const parser *in, word_id word) { return token_is_word(&in->token, word); }
 
-/* Does the token begin a line with a word that ends blocks of this rule (ENDS_EFFECT, ...)? */
+/* Does the token begin a line and show that the block's '}' is missing? `rule`: ENDS_EFFECT for an effect, ... */
 static bool parser_leaves(const parser *in, unsigned rule) {
     const statement_word *word = in->token.starts_line ? token_statement(&in->token) : NULL;
     return word != NULL && (word->rules & rule) != 0;
@@ -332,7 +332,7 @@ bool statement_unknown(parser *in, unsigned where) {
     const token word = in->token;
     parser_next(in);
     if (in->builder != NULL && !in->all_effects) {
-        /* a name that the unknown statement may declare is not reported later */
+        /* The unknown statement may declare this name, so later uses are not reported as unknown. */
         const token *declared = in->token.kind == TOKEN_NAME ? &in->token : &word;
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;
