@@ -19,7 +19,7 @@ static int state_columns(const image *im) {
     return columns;
 }
 
-/* In this order: values, rates and so on of all unknowns; then the outputs. */
+/* The order is: the values of all unknowns, their first derivatives, their higher derivatives, the outputs. */
 static void name_columns(records *r) {
     const image *im = r->image;
     int column = 1;
@@ -72,7 +72,7 @@ static int column_of(const records *r, int unknown_index, int primes) {
 
 typedef struct layout {
     const char *header, *between, *end;
-    const char *unit; /* between name and [unit]; a blank would split plain columns */
+    const char *unit; /* text before [unit]; a blank would separate plain columns */
 } layout;
 
 static const layout csv = {"", ",", "\r\n", " "};
@@ -145,7 +145,7 @@ void records_read(records *r, void *run, double time_s) {
 
 static bool write_row(const records *r, FILE *out, const layout *l) {
     for (int i = 0; i < r->columns; i++) {
-        /* the time is exact in every number type: 15 digits */
+        /* the time is a double in every engine, so it has 15 digits */
         if (i == 0) {
             fprintf(out, "%.15g", r->row[i]);
         } else {
@@ -166,7 +166,7 @@ bool records_write(const records *r) {
 
 /* Most units of time in a dump; doubles represent all whole numbers up to 2^53. */
 #define TICKS_MOST 0x1p52
-/* Fewest units of time in a step, if the end permits: they resolve events within a step. */
+/* Fewest units of time in a step, to resolve events within it. TICKS_MOST and VCD_FINEST take precedence. */
 #define TICKS_LEAST 1e3
 
 struct traces {

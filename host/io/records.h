@@ -1,7 +1,7 @@
-/* records.h: the records of a run: comma-separated values (RFC 4180), or plain columns, which Octave and Matlab read
- * with `load`: a header line after a percent sign, then numbers between spaces. Columns: time; coordinates; derivatives
- * as der(theta), der(der(x)), ...; outputs. Angles are not wrapped. Numbers are in the declared unit (image_unit), else
- * SI. A unit other than SI follows the column's name: theta [deg]; in plain columns without the blank. */
+/* records.h: the records of a run, as comma-separated values (RFC 4180) or as plain columns. Octave and Matlab `load`
+ * plain columns: their header line begins with a percent sign, and blanks separate the numbers. The columns are the
+ * time, the unknowns, their derivatives such as der(theta), and the outputs. Angles are not wrapped. A number is in the
+ * declared unit (image_unit), or in SI if none was declared. The header names a unit that is not SI: theta [deg]. */
 #ifndef IO_RECORDS_H
 #define IO_RECORDS_H
 
@@ -30,7 +30,7 @@ typedef struct records {
 
 records *records_open(FILE *out, const image *im, const engine_kind *kind);
 void records_close(records *r);
-/* "der(theta)", without the unit; the caller frees it. */
+/* Returns a name such as "der(theta)", without a unit. The caller frees it. */
 char *records_name(const record_column *c);
 /* Writes "theta'" to text[], and returns `text`. */
 enum { RECORDS_SHOWN_NAME = 100 };
@@ -38,17 +38,17 @@ const char *records_shown_name(const record_column *c, char text[RECORDS_SHOWN_N
 void records_header(records *r);
 /* Reads the run's state into r->row. `time_s` is steps * step, which is exact. */
 void records_read(records *r, void *run, double time_s);
-/* Writes r->row to both files. Returns false if writing failed. */
+/* Writes r->row to r->out and r->plain. Returns false if writing failed. */
 bool records_write(const records *r);
 
 /* === waves of a run =================================================================================== */
-/* A run for waveform viewers, as a value change dump (host/io/vcd.h). The records' columns are real signals. A unit
- * other than SI is part of the name; the comment after it has every unit. Each contact has a wire: high for a resting
- * stop, an active hold, a sticking friction, and a crossing above its value. Stops and crossings have an event at the
- * located instant (core/state.h logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
+/* A run for waveform viewers, as a value change dump (host/io/vcd.h). The columns of the records and the initial values
+ * of inputs are real signals. A wire is high while a stop rests, a hold is active, a friction sticks, or a `when` is
+ * above its value. An event marks the instant of an impact at a stop, or of a crossing of a `when`. If a step has more
+ * than WH_EVENT_LOG events (core/state.h), the dump has only the first ones. */
 
-/* The unit of the dump's times is 10^-power s: the coarsest with 1000 units in a step, or the finest with the end below
- * 2^52 units. Returns false if a step is then shorter than a unit, or the end is above 2^52 s. */
+/* The dump's unit of time is 10^-power s. *power is the least with 1000 units in a step, but is at most VCD_FINEST, and
+ * lower if the run would have 2^52 units. Returns false if a step is less than a unit, or if the run takes 2^52 s. */
 bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;

@@ -36,7 +36,7 @@ struct vcd {
     int64_t room;
 };
 
-/* Omits colons, because some viewers read such names as vectors. */
+/* A colon becomes _, because some viewers read a name with a colon as a vector. */
 static void write_name(FILE *out, const char *name) {
     char *copy = alloc_words("%s", name);
     char *to = copy;
@@ -74,7 +74,7 @@ static void open_scope(vcd *v, const char *scope) {
 
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits) {
     static const char *const unit[] = {"s", "ms", "us", "ns", "ps", "fs"};
-    /* units have the factor 1, 10 or 100: 0.1 s is 100 ms */
+    /* $timescale must be 1, 10 or 100 of a unit: 0.1 s is "100 ms" */
     static const char *const number[] = {"1", "100", "10"};
     vcd *v = alloc(1, sizeof *v);
     v->out = out;

@@ -1,7 +1,7 @@
-/* vcd.h: a value change dump for waveform viewers (IEEE 1364, 18): wires of one bit, real numbers, and events without a
- * value; no vectors, because they have crashed viewers. Only changes of the printed value are written. Times are whole
- * numbers of the dump's unit, and increase. Changes may come out of order; those before the last written time are
- * written at that time. */
+/* vcd.h: a value change dump for waveform viewers (IEEE 1364, 18). A signal is a wire of one bit, a real number, or an
+ * event without a value, but no vector, because vectors have crashed viewers. A wire or real is written only if its
+ * printed value changes. Written times are whole numbers of the dump's unit, and increase. vcd_change() may be called
+ * in any order of times. A change that is earlier than the last written time is written at that last time. */
 #ifndef IO_VCD_H
 #define IO_VCD_H
 
@@ -14,7 +14,7 @@ enum { VCD_FINEST = 15 };
 typedef struct vcd vcd;
 typedef enum vcd_kind { VCD_WIRE, VCD_REAL, VCD_EVENT } vcd_kind;
 
-/* Writes the head: `what`, the unit 10^-power s, and `scope`. Reals have `digits` digits. The caller owns `out`. */
+/* Writes the comment `what` and the unit 10^-power s. Begins `scope`. Reals get `digits` digits. `out` stays open. */
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits);
 
 /* Begins a scope for the following signals. */

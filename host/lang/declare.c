@@ -225,14 +225,14 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            /* a literal zero fits every dimension; so does a let of it, but no other symbol */
+            /* `any`: the value is a literal zero. A let of zero fits every dimension, but no other symbol does. */
             made->dim.any &= made->kind == SYM_LET;
         }
     }
     return value != NULL;
 }
 
-/* Reads an optional `rate NAME`. NAME is the input that is the time derivative; it may be declared later. */
+/* Reads an optional `rate NAME`. Input NAME is the time derivative of `made`. NAME may be declared later. */
 static bool parse_rate(parser *in, symbol *made) {
     if (!parser_is_word(in, WORD_RATE) || (made != NULL && made->rate != NULL)) {
         return true;

@@ -191,7 +191,7 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
 }
 
 const symbol *let_rate(parser *in, const symbol *let, const token *name) {
-    named *entry = (named *)(uintptr_t)let; /* not const: the parser made this symbol */
+    named *entry = (named *)(uintptr_t)let; /* the parser made this symbol, and may change it */
     const expr *d = NULL;
     if (entry->rate != NULL) {
         return &entry->rate->symbol;
@@ -296,7 +296,8 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* Returns an input in the expression that is a rate (`rates`), or one that has no rate; else NULL. Visits lets once. */
+/* Returns an input in the expression: if `rates`, one that is the rate of another input, else one that has no rate.
+ * Returns NULL if there is none. `mark` is the number of this walk, which visits each let once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;

@@ -195,7 +195,7 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     case SYM_RECORD:
         made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
         if (found->value != NULL) {
-            /* a let of plain numbers counts as having a unit: its name stands for a quantity */
+            /* even a let of plain numbers needs no unit, because its name stands for a quantity */
             made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
             made->order = found->value->order;
             made->height = found->value->height + 1;
@@ -236,7 +236,7 @@ static const expr *expr_name(parser *in, const token *name) {
         return unknown_value(made);
     }
     if (found->is_placeholder) {
-        if (found->symbol.kind == SYM_INPUT) { /* so far only a `rate` has named this input */
+        if (found->symbol.kind == SYM_INPUT) { /* named by an input's `rate`, but not declared */
             report_unknown(in, name);
             found->symbol.kind = SYM_LET;
         }
@@ -600,7 +600,7 @@ static const expr *parse_comparison(parser *in) {
     if (by == NULL) {
         return NULL;
     }
-    /* only the sign matters, and `and` may join conditions on a length and on a speed, so the dimension is dropped */
+    /* drop the dimension: only the sign matters, and `and` may join conditions of different dimensions */
     expr *made = expr_new(in, by->op, by->at);
     *made = *by;
     made->dim = dim_none();

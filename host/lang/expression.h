@@ -11,7 +11,7 @@
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
 /* Reads the condition of a hold as one expression, above zero if the condition is true. NULL after an error. */
 const expr *parse_condition(parser *in);
-/* Reads the current unit token, or a unit without brackets up to the end of the text. *text has no blanks. */
+/* Reads a unit token. If a name comes instead, the rest of the source is the unit. *text: the unit without blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
 /* Returns a hint if a later statement of the same mechanism declares the name, else NULL. */
@@ -51,12 +51,12 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 /* As check_dimension(), with a rule such as "SUBJECT is mass [kg]"; `verb` is "is" or "must be". */
 bool check_named(parser *in, place at, const expr *value, dimension wanted, const char *subject,
                  const char *verb);
-/* Reports a nonzero value without a unit at `at`, and returns false, if the declared unit of the symbol (or of its
- * derivative) is not SI. The current token must be the one after the value. */
+/* Returns false, and reports an error at `at`, if a nonzero value has no unit, but the declared unit of `of` is not
+ * SI. The value is of the derivative of order `primes`. The current token must be the one after the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* As check_unit() and check_dimension(), for a value of the symbol `of` or of its derivative (primes of `name`). */
+/* As check_unit() and check_dimension(), for a value of `of`, or of its derivative if `name` has primes. */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for the limit `value` of a stop or crossing of `of`. True if `of` is no single symbol. */
+/* As check_unit(), for the limit `value` of a stop or `when` on `of`. Returns true if `of` is not a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif

@@ -5,10 +5,10 @@
 #include "host/base/alloc.h"
 #include "host/lang/value.h"
 
-/* A rate in SI that is practically rest: far below the rates of real motions. */
+/* A rate in SI units, far below the rates of real motions. */
 #define NEAR_REST 1e-6
 
-/* Does the tree, or a let in it, name a coordinate other than `own`, or `own` without a prime? */
+/* Does the tree, or a let in it, contain an unknown or derivative other than the first derivative of `own`? */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -20,7 +20,7 @@ static bool names_others(const expr *tree, const symbol *own) {
     return names_others(tree->left, own) || names_others(tree->right, own);
 }
 
-/* Does the tree contain the sign() of an expression of the coordinate's rate and constants? */
+/* Does the tree contain a sign() whose argument depends on the rate of `own`, and on no other coordinate or rate? */
 static bool has_sign_of_rate(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -43,8 +43,8 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force jump against the motion at rate 0? Ten times closer to rate 0, a jump is as large, but the change of a
- * smooth force is a tenth. False if the force is not finite. */
+/* Does the force jump against the motion at rate 0? The forces at two rates r and -r are compared. If r is ten times
+ * smaller, the difference is the same at a jump, but a tenth for a smooth force. False if the force is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
@@ -59,7 +59,7 @@ static double bend(const term *of, const symbol *coordinate, valuation *known, d
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rate 0? Ten times closer to rate 0, bend() of a kink is a tenth, of a smooth F a hundredth. */
+/* Has F a kink at rate 0? If `rate` is ten times smaller, bend() falls to a tenth for a kink, else to a hundredth. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);

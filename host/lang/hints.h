@@ -4,8 +4,8 @@
 
 #include "model.h"
 
-/* Returns the first active Q or F that is dry friction without the statement `friction`, or NULL. Such a Q contains
- * sign() of its coordinate's rate and jumps against the motion at rate 0; such an F has a kink. *of: the coordinate. */
+/* Returns the first active term that is dry friction, written as Q or F instead of with `friction`, or NULL. Such a Q
+ * contains sign() of its coordinate's rate, and jumps at rate 0. Such an F has a kink there. *of: the coordinate. */
 const term *hint_friction(const instance *made, const symbol **of);
 
 #endif

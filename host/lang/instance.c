@@ -1,4 +1,4 @@
-/* instance.c: a scene, or a bare mechanism, with the command line's changes, in numbers. */
+/* instance.c: the numbers of a scene, or of a mechanism without a scene, after the changes of the command line. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,7 +33,7 @@ const effect *instance_lacks(const instance *of, const symbol *what) {
 /* Allowance for round-off: 0.3 - 0.2 - 0.1 is -3e-17, and must pass as zero. */
 #define LAST_DIGITS 1e-15
 
-/* Returns the value at the start. NAN if it changes with the motion, or is not finite (reported). */
+/* Returns the value at the start. Returns NAN if the expression depends on the motion, or after an error. */
 static double value_at_start(const expr *tree, valuation *known, const char *what) {
     if ((tree->uses & USES_UNKNOWNS) != 0) {
         return (double)NAN;
@@ -128,7 +128,7 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
     check_inputs(made, tree->right, all);
 }
 
-/* Counts a contact and the values that it sets, and reports the first one above a limit. */
+/* Counts a contact and the values that it sets. Reports the first contact that exceeds CONTACTS_MAX or SETS_MAX. */
 static void count_event(const contact_statement *each, int *events, int *sets, diags *all) {
     *events += 1;
     *sets += each->set_count;
@@ -141,7 +141,7 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Reports values that are out of range at the initial inputs. A program that sets inputs must check them. */
+/* Checks contacts and noises at the initial values of the inputs. A program that changes inputs must check ranges. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -179,7 +179,7 @@ static void limits_check(const instance *made, valuation *known) {
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
-#define ROUNDING 1e-9 /* round-off of unit conversions, relative to a step */
+#define ROUNDING 1e-9 /* allowance for round-off of unit conversions, as a fraction of the step */
 
 enum { WORDS_SIZE = 120 };
 

@@ -116,7 +116,7 @@ static size_t behind_digits(const lexer *in, size_t from) {
 
 static void read_number(lexer *in, token *made) {
     size_t length = behind_digits(in, 0);
-    /* not the dots of a range, 1 .. 2 */
+    /* the dots of a range such as 1..2 are not part of the number */
     if (at_offset(in, length) == '.' && at_offset(in, length + 1) != '.') {
         length = behind_digits(in, length + 1);
     }
@@ -181,8 +181,7 @@ static void read_name(lexer *in, token *made) {
 static void read_string(lexer *in, token *made) {
     size_t length = 1;
     int c = at_offset(in, length);
-    bool is_clean =
-        true; /* no control character but tab; the caller has reported carriage returns */
+    bool is_clean = true; /* no control character but tab; check_line_ends() reports \r */
     bool is_utf8 = true;
     while (c > 0 && c != '"' && c != '\n') {
         const size_t left = in->at.source->length - in->at.offset - length;
@@ -199,7 +198,7 @@ static void read_string(lexer *in, token *made) {
         diag_error(in->diags, made->at, "end the text with \" on the line on which it begins",
                    "this text is not closed");
         made->kind = TOKEN_BAD;
-        length--; /* without the closing character */
+        length--; /* there is no closing quote to skip */
     } else if (!is_clean || !is_utf8) {
         diag_error(in->diags, made->at, is_clean ? "save the file as UTF-8" : NULL,
                    is_clean ? "this text is not UTF-8" : "a control character in this text");
