@@ -34,23 +34,17 @@ BOARD_VECTOR_ROWS(WEAK_VECTOR)
 #define CFSR_MEMORY_ADDRESS (1U << 7)
 #define CFSR_BUS_ADDRESS (1U << 15)
 
-#if __ARM_ARCH >= 7
-static void note_status(board_fault_facts *facts) {
-    facts->cfsr = REGISTER(SCB_CFSR);
-    facts->hfsr = REGISTER(SCB_HFSR);
-    if ((facts->cfsr & CFSR_BUS_ADDRESS) != 0) {
-        facts->address = REGISTER(SCB_BFAR);
-    } else if ((facts->cfsr & CFSR_MEMORY_ADDRESS) != 0) {
-        facts->address = REGISTER(SCB_MMFAR);
-    }
-}
-#endif
-
 __attribute__((used)) _Noreturn void board_fault_report(const uint32_t *frame, uint32_t exception) {
     const uintptr_t at = (uintptr_t)frame;
     board_fault_facts facts = {.exception = exception, .sp = (uint32_t)at};
 #if __ARM_ARCH >= 7
-    note_status(&facts);
+    facts.cfsr = REGISTER(SCB_CFSR);
+    facts.hfsr = REGISTER(SCB_HFSR);
+    if ((facts.cfsr & CFSR_BUS_ADDRESS) != 0) {
+        facts.address = REGISTER(SCB_BFAR);
+    } else if ((facts.cfsr & CFSR_MEMORY_ADDRESS) != 0) {
+        facts.address = REGISTER(SCB_MMFAR);
+    }
 #endif
     if (at < (uintptr_t)board_stack_limit || (facts.cfsr & STACK_LIMIT_PASSED) != 0) {
         facts.stack = BOARD_STACK_OVERFLOW;

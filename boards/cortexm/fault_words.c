@@ -54,21 +54,6 @@ static const char *cause_of(uint32_t cfsr) {
     return "no cause given";
 }
 
-static void add_status(wh_text *text, const board_fault_facts *facts) {
-    add_register(text, " CFSR", facts->cfsr);
-    add_register(text, " HFSR", facts->hfsr);
-    if ((facts->cfsr & (1U << 15 | 1U << 7)) != 0) {
-        add_register(text, " at", facts->address);
-    }
-    wh_text_add(text, " (");
-    wh_text_add(text, cause_of(facts->cfsr));
-    wh_text_add_char(text, ')');
-}
-#else
-static void add_status(wh_text *text, const board_fault_facts *facts) {
-    (void)text;
-    (void)facts;
-}
 #endif
 
 void board_fault_words(wh_text *text, const board_fault_facts *facts) {
@@ -86,5 +71,14 @@ void board_fault_words(wh_text *text, const board_fault_facts *facts) {
         add_register(text, ", PC", facts->pc);
         add_register(text, " LR", facts->lr);
     }
-    add_status(text, facts);
+#if __ARM_ARCH >= 7
+    add_register(text, " CFSR", facts->cfsr);
+    add_register(text, " HFSR", facts->hfsr);
+    if ((facts->cfsr & (1U << 15 | 1U << 7)) != 0) {
+        add_register(text, " at", facts->address);
+    }
+    wh_text_add(text, " (");
+    wh_text_add(text, cause_of(facts->cfsr));
+    wh_text_add_char(text, ')');
+#endif
 }

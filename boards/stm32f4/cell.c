@@ -94,20 +94,17 @@ static void start_converter(void) {
                             ADC_CR2_DMA | ADC_CR2_ADON);
 }
 
-static void start_trigger(void) {
-    stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_TIM3));
-    reg_store(TIM_PSC(TIM3), 0);
-    reg_store(TIM_ARR(TIM3), stm32f4_clocks_now()->timers_Hz / PAIRS_PER_S - 1U);
-    reg_store(TIM_CR2(TIM3), TIM_CR2_MMS_UPDATE);
-    reg_store(TIM_CR1(TIM3), TIM_CR1_CEN);
-}
-
 void stm32f4_cell_start(void) {
     last.status = NO_MEAN;
     start_dma();
     start_converter();
     stm32f4_interrupt(DMA2_STREAM0_IRQ);
-    start_trigger();
+    /* timer 3, the trigger, last */
+    stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_TIM3));
+    reg_store(TIM_PSC(TIM3), 0);
+    reg_store(TIM_ARR(TIM3), stm32f4_clocks_now()->timers_Hz / PAIRS_PER_S - 1U);
+    reg_store(TIM_CR2(TIM3), TIM_CR2_MMS_UPDATE);
+    reg_store(TIM_CR1(TIM3), TIM_CR1_CEN);
 }
 
 /* True if both means are good, and the converter was not interrupted between them. */

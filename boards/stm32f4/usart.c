@@ -96,12 +96,6 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* The wait takes at most a byte's time, 87 us. It is bounded, so that a dead device does not hang the program. */
-static void send(char byte) {
-    (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
-    reg_store(USART_DR, (uint8_t)byte);
-}
-
 void uart_write(const char *bytes, unsigned count) {
     if ((reg_load(USART_CR1) & USART_CR1_TE) == 0) {
         uart_start();
@@ -115,7 +109,9 @@ void uart_write(const char *bytes, unsigned count) {
             }
             byte = *bytes++;
         }
-        send(byte);
+        /* takes at most a byte's time, 87 us; bounded, so that a dead device does not hang the program */
+        (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
+        reg_store(USART_DR, (uint8_t)byte);
     }
     stm32f4_go_on(before);
 }

@@ -26,17 +26,6 @@ bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {
     return measure->records && wh_rig_since_s(measure->begin_ticks, ticks) <= measure->record_s;
 }
 
-static void see_peaks(wh_measure *measure, wh_real force_N) {
-    wh_rig_result *result = &measure->result;
-    if (!measure->peaks || !(result->low_N < force_N)) {
-        result->low_N = force_N;
-    }
-    if (!measure->peaks || !(result->high_N > force_N)) {
-        result->high_N = force_N;
-    }
-    measure->peaks = true;
-}
-
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     if (!at_rest) {
         wh_lockin_load(&measure->lockin, load);
@@ -47,7 +36,15 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     if (at_rest) {
         wh_tare_add(&measure->tare, load->force_N);
     } else if (wh_measure_lasts(measure, load->ticks)) {
-        see_peaks(measure, load->force_N - measure->tare.mean_N);
+        wh_rig_result *result = &measure->result;
+        const wh_real force_N = load->force_N - measure->tare.mean_N;
+        if (!measure->peaks || !(result->low_N < force_N)) {
+            result->low_N = force_N;
+        }
+        if (!measure->peaks || !(result->high_N > force_N)) {
+            result->high_N = force_N;
+        }
+        measure->peaks = true;
     }
 }
 

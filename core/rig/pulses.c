@@ -67,15 +67,6 @@ static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) 
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
-/* Returns the excess of a turn's speed over the permitted rise. A disturbance causes such an excess at only one of two
- * successive pulses. */
-static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
-    const wh_speed *before = &pulses->before;
-    const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
-    const wh_real beyond = after->turn_radps - before->turn_radps - may;
-    return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
-}
-
 /* Accepts a pulse that gives the speed `after`. pulses->before must be the speed before this pulse. If this pulse
  * replaces the last one, pulses->before must not include that one. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
@@ -84,7 +75,10 @@ static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *aft
     pulses->fast =
         is_fast(pulses, after) ? pulses->fast + (is_sudden(pulses, after) ? 2U : 1U) : 0U;
     pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
-    pulses->climb_radps = climb(pulses, after);
+    /* the excess over the permitted rise; a disturbance causes one at only one of two successive pulses */
+    const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
+    const wh_real beyond = after->turn_radps - before->turn_radps - may;
+    pulses->climb_radps = before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
     pulses->last = (wh_index_pulse){
         .pulse = *pulse, .quarter = after->quarter, .gap = after->restarts != before->restarts};
     pulses->waits = true;

@@ -389,17 +389,6 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
-/* With the motor off: clears data that are invalid when the rotor is at rest. */
-static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
-    if (rig->guard.quiet) {
-        rig->run.off_radps = WH_R(0.0);
-        if (rig->pulses.speed.running) { /* old pulses look recent after the timer wraps */
-            wh_pulses_forget(&rig->pulses);
-        }
-    }
-}
-
 static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     wh_guard *guard = &rig->guard;
     const bool drives = wh_run_drives(&rig->run);
@@ -407,7 +396,13 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_WATCHDOG);
     }
     if (!drives) {
-        rest(config, rig, inputs->now_ticks);
+        wh_guard_quiet(&config->guard, guard, rig->pulses_ever, inputs->now_ticks);
+        if (guard->quiet) {
+            rig->run.off_radps = WH_R(0.0);
+            if (rig->pulses.speed.running) { /* old pulses look recent after the timer wraps */
+                wh_pulses_forget(&rig->pulses);
+            }
+        }
     }
     /* With the motor off, a rotor of known speed cannot become faster. */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
@@ -559,14 +554,6 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->loads = 0;
 }
 
-/* With the motor off after a run: follows the free swing of the rotor, or evaluates it if the rotor is at rest. */
-static void swing(const wh_rig_config *config, wh_rig *rig) {
-    const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
-    wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
-                  rig->state == WH_RIG_IDLE);
-    wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
-}
-
 static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
                                  const wh_rig_inputs *inputs) {
     if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
@@ -616,8 +603,11 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
             rig->result_ticks += WH_RIG_TICKS_PER_S; /* ages in seconds, because the timer wraps */
             rig->result_s++;
         }
-        if (WH_RIG_SWINGS) {
-            swing(config, rig);
+        if (WH_RIG_SWINGS) { /* follows a free swing, or evaluates it if the rotor is at rest */
+            const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
+            wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
+                          rig->state == WH_RIG_IDLE);
+            wh_swing_doubt(&config->swing, &rig->swing, &rig->result.force);
         }
     }
     rig->command = command_of(config, rig, inputs);

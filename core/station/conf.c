@@ -297,25 +297,22 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* Reverses put_sensors() and put_cell(): turns value[] from members of the configuration into settings. */
-static void see_several(wh_real *value) {
+void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
+                   wh_rig_config *config) {
+    uint8_t kept[WH_STORE_SLOT_BYTES];
+    wh_real *value = conf->standard;
+    *conf = (wh_conf){.own = own, .memory = memory, .config = config};
+    own(config);
+    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
+        value[id] = value_of(config, (wh_conf_id)id);
+    }
+    /* Members of sensors and cell become settings, the reverse of renew(). */
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];
     value[WH_CONF_cell_reversed] = value[WH_CONF_cell_scale] < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);
     value[WH_CONF_cell_scale] = WH_ABS(value[WH_CONF_cell_scale]);
-}
-
-void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
-                   wh_rig_config *config) {
-    uint8_t kept[WH_STORE_SLOT_BYTES];
-    *conf = (wh_conf){.own = own, .memory = memory, .config = config};
-    own(config);
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        conf->standard[id] = value_of(config, (wh_conf_id)id);
-    }
-    see_several(conf->standard);
-    for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        conf->standard[id] = as_kept(conf->standard[id]);
+        value[id] = as_kept(value[id]);
     }
     wh_conf_default(conf);
     const int count = memory != NULL ? wh_store_load(memory, kept, &conf->sequence) : 0;

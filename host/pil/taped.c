@@ -367,25 +367,22 @@ static bool play(taped *from, talk *t) {
 void lockstep_replay(const lockstep_request *request, const char *file, lockstep_report *report) {
     taped *from = alloc(1, sizeof *from);
     talk *t = alloc(1, sizeof *t);
-    *report = (lockstep_report){.end = LOCKSTEP_DONE};
-    t->guest.up = -1;
-    t->guest.down = -1;
-    t->report = report;
-    if (!taped_open(from, file)) {
-        report->end = LOCKSTEP_BAD;
-    } else if (talk_start(t, request, report, NULL)) {
-        if (!talk_is_same_hello(&from->hello, &t->hello)) {
+    *report = (lockstep_report){.end = LOCKSTEP_BAD};
+    if (taped_open(from, file)) {
+        report->end = LOCKSTEP_DONE;
+        const bool started = talk_start(t, request, report, NULL);
+        if (started && !talk_is_same_hello(&from->hello, &t->hello)) {
             fprintf(stderr,
                     "%s: error: the signals of the firmware '%s' on this tape differ from those of "
                     "the firmware '%s' now\n",
                     file, from->hello.program, t->hello.program);
             report->end = LOCKSTEP_BAD;
-        } else {
+        } else if (started) {
             while (play(from, t)) {
             }
         }
+        talk_end(t);
     }
-    talk_end(t);
     taped_close(from);
     free(from);
     free(t);
