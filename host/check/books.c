@@ -14,30 +14,26 @@ books *books_open(const image *im) {
     }
     const int results = im->list[IMAGE_BOOKS]->results;
     books *b = alloc(1, sizeof *b);
-    const size_t count = 2 * (size_t)results + 5 * (size_t)im->count + (size_t)im->inputs;
-    double *numbers = alloc((int64_t)count, sizeof *numbers);
     b->image = im;
-    b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
-    b->value = numbers;
-    b->off = numbers + results;
+    b->list = state_list_open(im, IMAGE_BOOKS);
+    b->value = b->list.result;
+    b->off = alloc(results + 5 * (int64_t)im->count, sizeof *b->off);
     b->momentum = b->off + results;
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
     b->rateless = b->momentum_now + im->count;
     b->terms = b->rateless + im->count;
-    b->input = b->terms + im->count;
     b->rate = alloc(2 * (int64_t)im->count, sizeof *b->rate);
     b->push = b->rate + im->count;
     b->frame = alloc(im->count, sizeof *b->frame);
-    image_inputs(im, b->input);
     b->step_s = im->step_s;
     return b;
 }
 
 void books_close(books *b) {
     if (b != NULL) {
-        evaluator_free(b->evaluator);
-        free(b->value);
+        state_list_close(&b->list);
+        free(b->off);
         free(b->rate);
         free(b->frame);
         free(b);
@@ -82,8 +78,8 @@ double books_swing_J(const books *b) {
 
 static void evaluate_now(const books *b, const double *state) {
     const image *im = b->image;
-    evaluator_run(b->evaluator, b->time_s, state, state + im->angles, state + im->coordinates,
-                  b->input, b->value);
+    evaluator_run(b->list.evaluator, b->time_s, state, state + im->angles, state + im->coordinates,
+                  b->list.input, b->value);
     for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
         b->value[i] = number_shown(b->value[i]); /* -0 becomes 0 */
     }
@@ -168,7 +164,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
         without_W += b->off[im->count + k];
     }
-    evaluator_rounding(b->evaluator, b->state, FLOAT_LEAST, b->off);
+    evaluator_rounding(b->list.evaluator, b->state, FLOAT_LEAST, b->off);
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
         with_W += b->off[im->count + k];
     }
@@ -206,7 +202,7 @@ static void look_at_rounding(books *b, const engine_kind *kind, const void *run)
     const double state_J = state_rounding_J(b, kind, run);
     look_at_momenta(b);
     evaluate_now(b, b->state);
-    evaluator_rounding(b->evaluator, b->state, 0.0, b->off);
+    evaluator_rounding(b->list.evaluator, b->state, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
     b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
@@ -385,7 +381,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     b->time_s = (double)kind->steps(run) * b->step_s;
     if (b->entries == 0) {
         if (kind == &engine_float) {
-            evaluator_wrap(b->evaluator);
+            evaluator_wrap(b->list.evaluator);
         }
         b->has_rateless = find_rateless(b);
         find_frame(b);

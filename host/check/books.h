@@ -19,9 +19,8 @@ typedef struct spread {
 
 typedef struct books {
     const image *image;
-    double *input; /* [image->inputs] */
-    evaluator *evaluator;
-    double *value;        /* results of the image's books list */
+    state_list list;      /* IMAGE_BOOKS */
+    double *value;        /* list.result */
     double *momentum;     /* [count] at the start of the run */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */

@@ -656,17 +656,14 @@ static double middle_of(taylor_bounds *a, int result) {
     return 0.5 * e.low + 0.5 * e.high;
 }
 
-/* Quantities of friction k. Each is the larger of its values at the two ends of the path. */
-typedef struct met {
-    double turns; /* acceleration per unit of friction force */
-    double load;  /* friction force that sticking needs; infinite if other contacts act */
-    double rate;  /* sliding speed */
-} met;
-
-static met met_by(missed *m, int k) {
+/* The friction force that sticking needs (infinite if other contacts act), or that noticeably changes the sliding speed
+ * within the path. Takes the larger of each number at both ends of the path. */
+static double force_that_matters(missed *m, int k, bool sticks) {
     const int n = m->image->coordinates;
     const int rows = law_of(m->image, k, WH_LAW_ROWS);
-    met of = {0.0, 0.0, 0.0};
+    double most_turns = 0.0; /* acceleration per unit of friction force */
+    double most_load = 0.0;
+    double most_rate = 0.0;
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->laws, -1, end, end);
         taylor_bounds_look(m->accel, -1, end, end);
@@ -679,15 +676,15 @@ static met met_by(missed *m, int k) {
             rate += row * (end == 0 ? m->piece->from : m->piece->to)[n + i];
             turns += row * middle_of(m->laws, rows + n + i);
         }
-        of.load = number_most(of.load, fabs(pull) / turns);
-        of.rate = number_most(of.rate, fabs(rate));
-        of.turns = number_most(of.turns, turns);
+        most_load = number_most(most_load, fabs(pull) / turns);
+        most_rate = number_most(most_rate, fabs(rate));
+        most_turns = number_most(most_turns, turns);
     }
     for (int l = 0; l < m->image->forced; l++) {
         const bool bears = m->image->contact[l].kind == WH_FRICTION || m->piece->mode[l] != WH_FREE;
-        of.load = l != k && bears ? (double)INFINITY : of.load;
+        most_load = l != k && bears ? (double)INFINITY : most_load;
     }
-    return of;
+    return sticks ? most_load : TURNS * most_rate / (m->piece->span_s * most_turns);
 }
 
 /* Inside the path, is the limit of friction k far larger than at the ends (if k slides), or too small (if k sticks)? */
@@ -706,10 +703,9 @@ static int limit_passes(missed *m, int k) {
     if (sticks ? glance.low >= grip : glance.high <= drag) {
         return 0;
     }
-    const met of = met_by(m, k);
+    const double force = force_that_matters(m, k, sticks);
     search s = {.look = sticks ? look_grip : look_size, .bounds = m->laws, .result = i};
-    s.bar = sticks ? number_least(grip, of.load)
-                   : number_most(drag, TURNS * of.rate / (m->piece->span_s * of.turns));
+    s.bar = sticks ? number_least(grip, force) : number_most(drag, force);
     return passes(&s, 0.0, 1.0, HALVINGS);
 }
 

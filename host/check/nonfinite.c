@@ -59,24 +59,20 @@ double blamed_node(const blamed *b, const diagnostics_node *n) {
 }
 
 int blamed_operands(const diagnostics_node *n, int of[static 2]) {
+    of[0] = n->a;
+    of[1] = n->b;
     switch (n->code) {
     case DIAGNOSTICS_NUMBER:
     case DIAGNOSTICS_STATE:
     case DIAGNOSTICS_INPUT: return 0;
     case DIAGNOSTICS_SAME:
-    case DIAGNOSTICS_NEG: of[0] = n->a; return 1;
+    case DIAGNOSTICS_NEG: return 1;
     case DIAGNOSTICS_ADD:
     case DIAGNOSTICS_SUB:
     case DIAGNOSTICS_MUL:
     case DIAGNOSTICS_DIV:
-    case DIAGNOSTICS_POW:
-        of[0] = n->a;
-        of[1] = n->b;
-        return 2;
-    case DIAGNOSTICS_CALL:
-        of[0] = n->a;
-        of[1] = n->b;
-        return n->b < 0 ? 1 : 2;
+    case DIAGNOSTICS_POW: return 2;
+    case DIAGNOSTICS_CALL: return n->b < 0 ? 1 : 2;
     }
     return 0;
 }

@@ -28,17 +28,21 @@ static int *not_made(struct arena *arena, int64_t count) {
     return number;
 }
 
+static bool refuse_contact(place at, contact_kind kind, diags *errors) {
+    diag_error(errors, at,
+               "use whirl trust, which estimates the error; a proof needs a smooth scene",
+               "%s changes the equations during a run, and the proof cannot enclose the time of "
+               "the change",
+               contact_called(kind));
+    return false;
+}
+
 static bool is_smooth(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
     for (int i = 0; i < m->contact_count; i++) {
         const contact_statement *c = &m->contacts[i];
         if (instance_has(inst, c->effect)) {
-            diag_error(errors, c->at,
-                       "use whirl trust, which estimates the error; a proof needs a smooth scene",
-                       "%s changes the equations during a run, and the proof cannot enclose the "
-                       "time of the change",
-                       contact_called(c->kind));
-            return false;
+            return refuse_contact(c->at, c->kind, errors);
         }
     }
     for (int i = 0; i < m->input_count; i++) {
@@ -51,12 +55,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
         }
     }
     if (inst->scene != NULL && inst->scene->when_count > 0) {
-        diag_error(errors, inst->scene->whens[0].at,
-                   "use whirl trust, which estimates the error; a proof needs a smooth scene",
-                   "%s changes the equations during a run, and the proof cannot enclose the time "
-                   "of the change",
-                   contact_called(CONTACT_WHEN));
-        return false;
+        return refuse_contact(inst->scene->whens[0].at, CONTACT_WHEN, errors);
     }
     return true;
 }

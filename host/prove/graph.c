@@ -283,32 +283,15 @@ static int rewrite(graph *g, int a, int variable, int (*make)(rewriting *r, int 
     return made;
 }
 
-/* The derivative of a sine, cosine, exponential and so on by its argument. */
-static int outer_slope(graph *g, int a) {
-    const node n = g->node[a];
-    switch (n.kind) {
-    case NODE_SQUARE: return graph_mul(g, graph_whole(g, 2), n.left);
-    case NODE_SINE: return graph_cosine(g, n.left);
-    case NODE_COSINE: return graph_neg(g, graph_sine(g, n.left));
-    case NODE_EXP: return a;
-    case NODE_LOG: return graph_div(g, graph_whole(g, 1), n.left);
-    case NODE_POWER: return graph_mul(g, graph_number(g, n.number), graph_div(g, a, n.left));
-    case NODE_NUMBER:
-    case NODE_VARIABLE:
-    case NODE_SUM:
-    case NODE_DIFFERENCE:
-    case NODE_PRODUCT:
-    case NODE_MULTIPLE:
-    case NODE_RATIO: break;
-    }
-    return a;
-}
-
 static int slope(rewriting *r, int a) {
     graph *g = r->graph;
     const node n = g->node[a];
     const bool is_leaf = n.kind == NODE_NUMBER || n.kind == NODE_VARIABLE;
+    const bool is_function = n.kind == NODE_SQUARE || n.kind >= NODE_SINE;
     const int left = is_leaf ? -1 : rewritten(r, n.left);
+    if (is_function && graph_is_zero(g, left)) {
+        return left;
+    }
     switch (n.kind) {
     case NODE_NUMBER: return graph_whole(g, 0);
     case NODE_VARIABLE: return graph_whole(g, n.left == r->variable ? 1 : 0);
@@ -323,14 +306,17 @@ static int slope(rewriting *r, int a) {
         const int below = graph_mul(g, a, rewritten(r, n.right));
         return graph_div(g, graph_sub(g, left, below), n.right);
     }
-    case NODE_SQUARE:
-    case NODE_SINE:
-    case NODE_COSINE:
-    case NODE_EXP:
-    case NODE_LOG:
-    case NODE_POWER: break;
+    case NODE_SQUARE: return graph_mul(g, graph_mul(g, graph_whole(g, 2), n.left), left);
+    case NODE_SINE: return graph_mul(g, graph_cosine(g, n.left), left);
+    case NODE_COSINE: return graph_mul(g, graph_neg(g, graph_sine(g, n.left)), left);
+    case NODE_EXP: return graph_mul(g, a, left);
+    case NODE_LOG: return graph_mul(g, graph_div(g, graph_whole(g, 1), n.left), left);
+    case NODE_POWER: {
+        const int outer = graph_mul(g, graph_number(g, n.number), graph_div(g, a, n.left));
+        return graph_mul(g, outer, left);
     }
-    return graph_is_zero(g, left) ? left : graph_mul(g, outer_slope(g, a), left);
+    }
+    return a;
 }
 
 int graph_slope(graph *g, int a, int variable) { return rewrite(g, a, variable, slope); }

@@ -19,7 +19,7 @@ typedef enum node_kind {
     NODE_MULTIPLE, /* number * left */
     NODE_SQUARE,
     NODE_RATIO,
-    NODE_SINE, /* right: the cosine of the same angle, the next node */
+    NODE_SINE, /* right: the cosine of the same angle, the next node; from here on functions of `left` */
     NODE_COSINE,
     NODE_EXP,
     NODE_LOG,

@@ -282,21 +282,10 @@ static double products_to(int order) { return 0.5 * (double)(order + 1) * (doubl
 double taylor_products(const taylor *t) {
     double sums = 0.0;
     for (int i = 0; i < t->motion->nodes; i++) {
-        switch (t->motion->node[i].kind) {
-        case NODE_NUMBER:
-        case NODE_VARIABLE:
-        case NODE_SUM:
-        case NODE_DIFFERENCE:
-        case NODE_MULTIPLE: break;
-        case NODE_PRODUCT:
-        case NODE_SQUARE:
-        case NODE_RATIO:
-        case NODE_SINE:
-        case NODE_COSINE:
-        case NODE_EXP:
-        case NODE_LOG:
-        case NODE_POWER: sums += 1.0;
-        }
+        const node_kind kind = t->motion->node[i].kind;
+        const bool is_sum = kind == NODE_NUMBER || kind == NODE_VARIABLE || kind == NODE_SUM ||
+                            kind == NODE_DIFFERENCE || kind == NODE_MULTIPLE;
+        sums += is_sum ? 0.0 : 1.0; /* of products */
     }
     return sums * (products_to(t->order) +
                    2.0 * (double)(t->width - 1) * (t->width > 1 ? products_to(t->slopes_to) : 0.0));
