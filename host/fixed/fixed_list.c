@@ -97,6 +97,12 @@ int fixed_point_of(double size, int digits) {
 /* The largest size of an operation's integer, as a double. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
+static int exponent_of(double value) {
+    int exponent;
+    (void)number_split(value, &exponent);
+    return exponent;
+}
+
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
 
@@ -136,12 +142,9 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     case FIXED_DIFFERENCE:
     case FIXED_LEAST:
     case FIXED_MOST: o->bits = sum_bits(l, o, bits); return;
-    case FIXED_SAME: {
-        int exponent;
-        (void)number_split(o->value, &exponent);
-        o->bits = least(bits, l->op[o->a.op].bits - (exponent - 1));
+    case FIXED_SAME:
+        o->bits = least(bits, l->op[o->a.op].bits - (exponent_of(o->value) - 1));
         return;
-    }
     case FIXED_ABS: o->bits = least(bits, l->op[o->a.op].bits); return;
     case FIXED_SIGN: o->bits = FIXED_DIGITS - 1; return;
     case FIXED_CONSTANT:
@@ -203,22 +206,23 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
 }
 
 /* Returns the largest left shift after which an integer of at most `size` fits into 31 binary digits. */
-static int left_of(double size) {
-    int exponent;
-    (void)number_split(size + 1.0, &exponent);
-    return 31 - exponent;
-}
+static int left_of(double size) { return 31 - exponent_of(size + 1.0); }
 
-/* Chooses the shifts of a product. The factors have `a_bits` and `b_bits` digits after the point, and allow left shifts
- * by a_left and b_left. Returns false if these do not suffice. */
+/* Chooses the shifts of a product, and reduces its digits until they suffice; false: they never do. The factors have
+ * `a_bits` and `b_bits` digits after the point, and allow left shifts by a_left and b_left. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
-    const int by = a_bits + b_bits - o->bits - 32;
-    const int short_of = by >= 1 ? 0 : 1 - by;
-    const int more = least(short_of, most(a_left, 0));
-    o->a.shift = more;
-    o->b.shift = short_of - more;
-    o->by = by + short_of;
-    return o->b.shift <= b_left;
+    for (; o->bits > BITS_LEAST; o->bits--) {
+        const int by = a_bits + b_bits - o->bits - 32;
+        const int short_of = by >= 1 ? 0 : 1 - by;
+        const int more = least(short_of, most(a_left, 0));
+        o->a.shift = more;
+        o->b.shift = short_of - more;
+        o->by = by + short_of;
+        if (o->b.shift <= b_left) {
+            return true;
+        }
+    }
+    return false;
 }
 
 int fixed_factor_bits(double value) {
@@ -232,14 +236,10 @@ static bool finish_product(const fixed_list *l, fixed_op *o) {
     const bool constant = a->code == FIXED_CONSTANT;
     const int a_bits = constant ? fixed_factor_bits(a->value) : a->bits;
     const int a_left = constant ? 0 : left_of(units(a));
-    const int b_left = left_of(units(b));
-    while (!shift_product(o, a_bits, a_left, b->bits, b_left) && o->bits > BITS_LEAST) {
-        o->bits--;
-    }
     if (constant) {
         o->a.number = whole(a->value, a_bits);
     }
-    return o->bits > BITS_LEAST;
+    return shift_product(o, a_bits, a_left, b->bits, left_of(units(b)));
 }
 
 static bool finish_quotient(const fixed_list *l, fixed_op *o) {
@@ -247,10 +247,8 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
     const fixed_op *b = &l->op[o->b.op];
     const bool constant = a->code == FIXED_CONSTANT;
     const enclosure size = enclosure_call(FN_ABS, b->range, enclosure_of(0.0));
-    int smallest;
-    int largest;
-    (void)number_split(number_scaled((1.0 - MARGIN) * size.low, b->bits), &smallest);
-    (void)number_split(number_scaled((1.0 + MARGIN) * size.high, b->bits), &largest);
+    const int smallest = exponent_of(number_scaled((1.0 - MARGIN) * size.low, b->bits));
+    const int largest = exponent_of(number_scaled((1.0 + MARGIN) * size.high, b->bits));
     if (b->code == FIXED_CONSTANT || smallest < 1) {
         return false;
     }
@@ -260,10 +258,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
     const int room = o->spread < 15 ? o->spread : 15;
     const int a_bits = constant ? fixed_point_of(fabs(a->value), 30 - room) : a->bits;
     const int a_left = constant ? room : left_of(units(a));
-    while (!shift_product(o, a_bits, a_left, 61 - b->bits - (32 - smallest), 0) &&
-           o->bits > BITS_LEAST) {
-        o->bits--;
-    }
+    const bool good = shift_product(o, a_bits, a_left, 61 - b->bits - (32 - smallest), 0);
     o->follows = a_left >= o->spread;
     if (o->follows) { /* the shifts so far are for the smallest |b|; change them to the largest */
         const int more = most(o->spread - o->a.shift, 0);
@@ -275,7 +270,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
     if (constant) {
         o->a.number = whole(a->value, a_bits);
     }
-    return o->bits > BITS_LEAST;
+    return good;
 }
 
 static bool finish(const fixed_list *l, fixed_op *o) {
@@ -288,12 +283,7 @@ static bool finish(const fixed_list *l, fixed_op *o) {
         align(l, &o->a, o->bits);
         align(l, &o->b, o->bits);
         return true;
-    case FIXED_SAME: {
-        int exponent;
-        (void)number_split(o->value, &exponent);
-        align(l, &o->a, o->bits + (exponent - 1));
-        return true;
-    }
+    case FIXED_SAME: align(l, &o->a, o->bits + (exponent_of(o->value) - 1)); return true;
     case FIXED_ABS: align(l, &o->a, o->bits); return true;
     case FIXED_PRODUCT: return finish_product(l, o);
     case FIXED_QUOTIENT: return finish_quotient(l, o);
@@ -320,10 +310,8 @@ bool fixed_is_result(const fixed_list *l, int i) {
 /* Has |b| as many leading zeros as the quotient assumes? */
 static bool has_zeros(const fixed_op *o, const fixed_op *b) {
     const enclosure size = enclosure_call(FN_ABS, b->range, enclosure_of(0.0));
-    int smallest;
-    int largest;
-    (void)number_split(number_scaled(size.low, b->bits), &smallest);
-    (void)number_split(number_scaled(size.high, b->bits), &largest);
+    const int smallest = exponent_of(number_scaled(size.low, b->bits));
+    const int largest = exponent_of(number_scaled(size.high, b->bits));
     return largest <= 32 - o->zeros && smallest >= 32 - o->zeros - o->spread;
 }
 

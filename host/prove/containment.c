@@ -13,38 +13,42 @@
 #include "host/number/ratio.h"
 #include "host/os/system.h"
 
-typedef struct reading {
+typedef struct going {
     const containment_request *request;
-    double *output;
-    double *value; /* [states] */
-} reading;
+    containment_found *held;
+    void *run;
+    double *output;   /* [outputs] of the run */
+    double *value;    /* [states] of the run */
+    enclosure *exact; /* [states] the tube; before it begins, the ranges of the run */
+    flowpipe *tube;
+    enclosure step_s; /* length of a step of the run */
+    enclosure next_s; /* time from the flowpipe's end to the next record of the run */
+    uint64_t done;    /* completed steps of the run */
+} going;
 
-static void put(const reading *r, int unknown, int primes, double value) {
-    const exact_motion *m = r->request->motion;
+static void put(const going *g, int unknown, int primes, double value) {
+    const exact_motion *m = g->request->motion;
     for (int i = 0; i < m->states; i++) {
         if (m->state[i].unknown == unknown && m->state[i].primes == primes) {
-            r->value[i] = value;
+            g->value[i] = value;
         }
     }
 }
 
-static void read_run(const reading *r, void *run) {
-    const image *im = r->request->image;
-    double angle_rad[IMAGE_COMPONENTS_MAX];
-    double real[2 * IMAGE_COMPONENTS_MAX];
-    r->request->kind->state(run, angle_rad, real);
-    for (int i = 0; i < im->angles; i++) {
-        put(r, im->angle[i].unknown, im->angle[i].primes, angle_rad[i]);
-    }
-    for (int i = 0; i < im->reals; i++) {
-        put(r, im->real[i].unknown, im->real[i].primes, real[i]);
+static void read_run(const going *g) {
+    const image *im = g->request->image;
+    double state[3 * IMAGE_COMPONENTS_MAX];
+    g->request->kind->state(g->run, state, state + im->angles);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        put(g, c.unknown, c.primes, state[i]);
     }
     if (im->recovered > 0) {
-        r->request->kind->outputs(run, r->output);
+        g->request->kind->outputs(g->run, g->output);
         for (int k = 0; k < im->recovered; k++) {
             const int at = im->own_outputs + 2 * k;
-            put(r, im->from_momentum[k], 0, r->output[at]);
-            put(r, im->from_momentum[k], 1, r->output[at + 1]);
+            put(g, im->from_momentum[k], 0, g->output[at]);
+            put(g, im->from_momentum[k], 1, g->output[at + 1]);
         }
     }
 }
@@ -70,43 +74,33 @@ static void set_within(const containment_request *w, containment_found *h) {
     }
 }
 
-typedef struct ranging {
-    const reading *reading;
-    void *run;
-    int states;
-    double *low;
-    double *high;
-} ranging;
-
 static bool see(void *of, uint64_t step) {
-    const ranging *at = of;
-    const double *value = at->reading->value;
-    read_run(at->reading, at->run);
-    for (int i = 0; i < at->states; i++) {
-        at->low[i] = step == 0 ? value[i] : number_least(at->low[i], value[i]);
-        at->high[i] = step == 0 ? value[i] : number_most(at->high[i], value[i]);
+    const going *g = of;
+    read_run(g);
+    for (int i = 0; i < g->held->states; i++) {
+        const double value = g->value[i];
+        g->exact[i] = step == 0 ? enclosure_of(value)
+                                : (enclosure){number_least(g->exact[i].low, value),
+                                              number_most(g->exact[i].high, value)};
     }
     return true;
 }
 
-static void find_ranges(const containment_request *w, const reading *r, containment_found *h) {
-    void *run = w->kind->start(w->image);
-    const int n = h->states;
-    double *low = alloc(n, sizeof *low);
-    double *high = alloc(n, sizeof *high);
-    ranging at = {r, run, n, low, high};
-    const loop l = {.kind = w->kind, .run = run, .steps = w->image->steps, .see = see, .of = &at};
+static void find_ranges(going *g) {
+    const containment_request *w = g->request;
+    containment_found *h = g->held;
+    g->run = w->kind->start(w->image);
+    const loop l = {.kind = w->kind, .run = g->run, .steps = w->image->steps, .see = see, .of = g};
     h->ranged = loop_run(&l, &h->status) != LOOP_INTERRUPTED;
-    h->run_steps = w->kind->steps(run);
-    w->kind->stop(run);
-    for (int i = 0; i < n; i++) {
+    h->run_steps = w->kind->steps(g->run);
+    w->kind->stop(g->run);
+    for (int i = 0; i < h->states; i++) {
+        const double low = g->exact[i].low;
+        const double high = g->exact[i].high;
         h->state[i].open = true;
-        h->state[i].range =
-            number_most(high[i] - low[i], LITTLE * number_most(fabs(low[i]), fabs(high[i])));
+        h->state[i].range = number_most(high - low, LITTLE * number_most(fabs(low), fabs(high)));
     }
     set_within(w, h);
-    free(low);
-    free(high);
 }
 
 static bool all_closed(const containment_found *h) {
@@ -139,24 +133,12 @@ static void look(containment_found *h, const double *value, const enclosure *exa
     }
 }
 
-typedef struct going {
-    const containment_request *request;
-    const reading *reading;
-    containment_found *held;
-    flowpipe *tube;
-    void *run;
-    enclosure step_s; /* length of a step of the run */
-    enclosure next_s; /* time from the flowpipe's end to the next record of the run */
-    enclosure *exact; /* [states] */
-    uint64_t done;    /* completed steps of the run */
-} going;
-
 static void look_now(going *g) {
     const containment_request *w = g->request;
-    read_run(g->reading, g->run);
-    look(g->held, g->reading->value, g->exact, ratio_times(g->done, w->image->step));
+    read_run(g);
+    look(g->held, g->value, g->exact, ratio_times(g->done, w->image->step));
     if (w->see != NULL) {
-        w->see(w->context, g->done, g->exact, g->reading->value);
+        w->see(w->context, g->done, g->exact, g->value);
     }
 }
 
@@ -241,25 +223,25 @@ containment_found containment_run(const containment_request *w) {
     const image *im = w->image;
     containment_found h = {.states = w->motion->states, .end = CONTAINMENT_STOPPED};
     h.state = alloc(h.states, sizeof *h.state);
-    const reading r = {w, alloc(im->outputs, sizeof(double)), alloc(h.states, sizeof(double))};
-    find_ranges(w, &r, &h);
+    going g = {.request = w,
+               .held = &h,
+               .output = alloc(im->outputs, sizeof(double)),
+               .value = alloc(h.states, sizeof(double)),
+               .exact = alloc(h.states, sizeof(enclosure))};
+    find_ranges(&g);
     if (h.ranged) {
         h.end = CONTAINMENT_AT_END;
-        going g = {.request = w,
-                   .reading = &r,
-                   .held = &h,
-                   .tube = flowpipe_new(w->motion, FLOWPIPE_ORDER),
-                   .run = w->kind->start(im),
-                   .exact = alloc(h.states, sizeof(enclosure))};
+        g.tube = flowpipe_new(w->motion, FLOWPIPE_ORDER);
+        g.run = w->kind->start(im);
         g.step_s = enclosure_div(counted(im->step.numerator), counted(im->step.denominator));
         g.next_s = g.step_s;
         hold(&g);
         w->kind->stop(g.run);
         flowpipe_free(g.tube);
-        free(g.exact);
     }
-    free(r.output);
-    free(r.value);
+    free(g.output);
+    free(g.value);
+    free(g.exact);
     return h;
 }
 
