@@ -28,20 +28,20 @@ named *names_find(const names *all, const char *text, size_t length);
 named *names_add(names *all, const char *text, size_t length);
 /* Adds a name that is not declared, and reported: this prevents a second report. */
 void names_add_placeholder(names *all, const token *name);
-/* Offers to the search the names declared outside effects, and those of effect `effect_index` (-1: none, -2: all). */
+/* Offers names to the search: those outside effects, and those of effect `effect_index` (-1: none, -2: all effects). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
 enum { NESTING_MAX = 200 };
 
-/* The context of an expression decides which names it may use. */
+/* The context of an expression decides which names it may use. The comments list statements, then allowed names. */
 typedef enum expr_context {
     CONTEXT_CONSTANT, /* parameter, input, set, start, step: numbers and parameters */
     CONTEXT_FORCE,    /* T, V, F, Q: up to first derivatives of coordinates */
     CONTEXT_EQUATION, /* equations of a state system: derivatives of any order */
     CONTEXT_GAP,      /* the quantity of stops and holds: coordinates, no rates */
     CONTEXT_EVENT,    /* other parts of stop, friction, hold, when: up to first derivatives */
-    CONTEXT_LET,      /* any name; each use of the let is checked */
-    CONTEXT_OUTPUT    /* second derivatives and earlier outputs are allowed */
+    CONTEXT_LET,      /* let: any name; each use of the let is checked */
+    CONTEXT_OUTPUT    /* output: also second derivatives and earlier outputs */
 } expr_context;
 
 /* The current mechanism. */
@@ -85,13 +85,13 @@ typedef struct parser {
     unit_scale number_unit; /* the unit after the last number, and its text */
     const char *number_unit_text;
     const char *const *around; /* see override_parse() */
-    const char *condition_at;  /* a parenthesis at this place of the text may enclose a condition */
+    const char *condition_at;  /* start of a comparison: a '(' here may enclose a condition */
     int effect;                /* index of the current effect, or -1 */
-    bool all_effects;          /* a scene may name the parameters of every effect */
-    bool bare_units;  /* a unit without brackets may follow a number, up to the end of the text */
-    names *names;     /* those of the mechanism; NULL: no names allowed */
-    builder *builder; /* the current mechanism, or that of the current scene, or NULL */
-    draft *draft;     /* the current scene, or NULL */
+    bool all_effects;          /* names of every effect are allowed, as in a scene */
+    bool bare_units;           /* a number's unit needs no brackets and ends the text */
+    names *names;              /* those of the mechanism; NULL: no names allowed */
+    builder *builder;          /* the current mechanism, or that of the current scene, or NULL */
+    draft *draft;              /* the current scene, or NULL */
     builder **builders;
     int builder_count;
     pending_scene *pending;
@@ -124,7 +124,7 @@ const char *parser_nearest(const parser *in, const nearest *search, const char *
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
 void parser_skip_newlines(parser *in); /* skip empty lines only */
-/* Skips to the next statement of a block. Returns false at '}' (*closed), at a word with `rule`, and at the end. */
+/* Skips to a block's next statement. False if '}' (*closed), a word with the rule `rule` or the text's end is first. */
 bool parser_in_block(parser *in, unsigned rule, bool *closed);
 /* Returns the hint for a missing operator before the current name, number or '('. */
 const char *parser_operator_hint(const parser *in);

@@ -204,7 +204,7 @@ static bool read_range(parser *in, const statement_word *word) {
         return true;
     }
     static const char *const nothing[] = {"", ""};
-    in->around = nothing; /* hints quote one end of the range, without the name */
+    in->around = nothing; /* the hint about a missing unit shows one end only, without a name */
     low = with_unit(in, low, high);
     if (check_value(in, low_at, low, what, &name) && check_value(in, high_at, high, what, &name)) {
         const range_statement one = {what, name.primes, low, high, name.at};

@@ -146,8 +146,8 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === checks of a complete mechanism =========================================================== */
 
-/* If `in` is NULL, raises the order of each state to its highest derivative in an equation. Otherwise reports a
- * derivative in an output above that order. Visits each let once. EXPR_HEIGHT_MAX bounds the recursion. */
+/* If `in` is NULL, `tree` is a side of an equation: raises each state's order to that of its highest derivative.
+ * Otherwise `tree` is an output: reports derivatives above a state's order. EXPR_HEIGHT_MAX bounds the recursion. */
 static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;
@@ -205,7 +205,7 @@ static void finish_system(parser *in, builder *done) {
 
 static void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
-    bool has_T = false; /* also in an effect: host/derive checks each scene */
+    bool has_T = false; /* a T in any effect counts: host/derive checks each scene */
     for (int i = 0; i < made->term_count; i++) {
         has_T = has_T || made->terms[i].kind == TERM_T;
     }

@@ -20,7 +20,7 @@ typedef struct unit_entry {
     quantity_id of;
 } unit_entry;
 
-/* Pound, inch and foot: the international agreement of 1959; standard gravity 9.80665 m/s^2. */
+/* The international agreement of 1959 defines pound, inch and foot. Standard gravity is 9.80665 m/s^2. */
 #define POUND_KG 0.45359237
 #define POUND_FORCE_N 4.4482216152605
 
@@ -150,7 +150,7 @@ static const unit_entry *find_unit(const char *name, size_t length) {
     return NULL;
 }
 
-/* Encloses a factor of the table: whole numbers are exact, decimals and multiples of pi are the nearest double. */
+/* Encloses a factor of the table. Whole numbers are exact; decimals and multiples of pi have been rounded. */
 static enclosure exact_factor(double factor) {
     return number_nearest(factor) == factor ? enclosure_of(factor) : enclosure_about(factor, 1);
 }
@@ -305,7 +305,7 @@ static bool read_factor(reader *in, unit_scale *result) {
             return false;
         }
         const unit_scale base = *result;
-        const double size = fabs(exponent); /* 1/ms is 1000/s: the factors change places */
+        const double size = fabs(exponent); /* a negative exponent exchanges scale and divisor */
         result->scale = number_power(exponent < 0.0 ? base.divisor : base.scale, size);
         result->divisor = number_power(exponent < 0.0 ? base.scale : base.divisor, size);
         /* an exponent that is not a multiple of 1/2 may have been rounded */
@@ -379,7 +379,7 @@ const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name
 
 char *unit_in_si(int index, double *value, char *buffer, size_t size) {
     *value = units[index].scale / units[index].divisor;
-    if (units[index].of == QUANTITY_FREQUENCY) { /* users do not read rpm as a fraction of Hz */
+    if (units[index].of == QUANTITY_FREQUENCY) { /* rad/s, because users do not expect rpm in Hz */
         return dim_unit(dim_of_quantity(QUANTITY_FREQUENCY), buffer, size);
     }
     for (int i = 0; i < UNIT_COUNT; i++) {

@@ -78,7 +78,7 @@ char *dim_text(dimension dim, char *buffer, size_t size);
 char *dim_symbols(dimension dim, char *buffer, size_t size);
 /* Writes the usual unit, such as "N*m" or "rad/s", or base units if there is no usual one. */
 char *dim_unit(dimension dim, char *buffer, size_t size);
-/* Writes the unit of records and the balance, such as "N" or "N*m*s", or base units if there is no usual one. */
+/* Writes the unit in records and balances, such as "N" or "N*m*s", or base units if there is no usual one. */
 char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 
@@ -87,7 +87,7 @@ typedef struct unit_scale {
     double scale;
     double divisor;
     dimension dim;
-    enclosure exact; /* encloses the unit in SI, which two doubles may not represent exactly */
+    enclosure exact; /* encloses the exact factor to SI; scale / divisor may be rounded */
 } unit_scale;
 
 typedef struct unit_error {
@@ -100,13 +100,13 @@ typedef struct unit_error {
  * to right. Returns false and fills `error` if the text is no unit. */
 bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error);
 
-/* Returns true for an SI unit, up to rounded factors, and for {0}, which means no unit. */
+/* True if scale / divisor is 1, apart from rounding. Also true for {0}, which means no unit. */
 bool unit_is_si(unit_scale u);
 
 /* Returns the name of unit `index`, counted from 0, or NULL after the last. */
 const char *unit_name(int index);
 
-/* Writes the SI unit (or base units) of unit `index`, cut to `size` bytes; returns `buffer`. *value: the unit in SI. */
+/* Expresses unit `index` in SI: sets *value, and writes the SI unit, cut to `size` bytes. Returns `buffer`. */
 char *unit_in_si(int index, double *value, char *buffer, size_t size);
 
 /* True if the text is a unit of angle: rad, deg or rev. */

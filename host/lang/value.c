@@ -57,7 +57,7 @@ char *shown_written(const expr *given) {
     }
     const char *text = leaf->at.source->text;
     size_t at = leaf->at.offset;
-    /* back over signs, parentheses and a function's name */
+    /* go back to the start of the whole value: signs, parentheses or a function's name may precede the leaf */
     while (at > 0 && strchr("=\n", text[at - 1]) == NULL) {
         at--;
     }
@@ -100,7 +100,7 @@ char *shown_assignment(const symbol *s, int primes, const char *number) {
 
 enum {
     NAME_BUFFER = 100,
-    DEPTH_MAX = 20000 /* most valuation.depth; bounds the recursion */
+    DEPTH_MAX = 20000 /* upper limit of valuation.depth, because evaluation is recursive */
 };
 
 valuation valuation_new(const mechanism *of, struct arena *arena, diags *all) {

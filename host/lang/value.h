@@ -22,8 +22,8 @@ char *shown_written(const expr *given);
 /* As shown_written(), for a formula. NULL for a single number, with or without a unit. */
 char *shown_formula(const expr *given);
 
-/* Returns an assignment in the form of an option, such as "theta'=3 [rad/s]", without the unit if the declared unit is
- * SI. `number` is SI. The caller frees the text. */
+/* Returns an assignment in the form of an option, such as "theta'=3 [rad/s]". `number` is SI. The text has no unit if
+ * the declared unit of `s` is SI. The caller frees it. */
 char *shown_assignment(const symbol *s, int primes, const char *number);
 
 /* Writes the SI unit of a dimension to text[size], such as "rad", "m/s", "kg*m^2/s^2" or "1". Returns `text`. */
@@ -33,15 +33,15 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
 typedef struct valuation {
     const mechanism *of;
     const expr **parameter_expr;  /* [parameter_count] */
-    place *parameter_at;          /* [parameter_count] place of that expression */
+    place *parameter_at;          /* [parameter_count] place of the declaration or assignment */
     double *parameter;            /* [parameter_count] SI */
-    signed char *parameter_state; /* [parameter_count] 0 not yet, 1 in progress, 2 done */
+    signed char *parameter_state; /* [parameter_count] evaluation: 0 not begun, 1 begun, 2 done */
     double *let;                  /* [let_count] */
     bool *let_known;              /* [let_count] */
     const double *input;          /* [input_count] SI; NULL: expressions may contain no input */
     double *const *state; /* [coordinate_count][primes <= primes_most] SI; NULL: no coordinates */
     int primes_most;
-    int depth; /* total height of the expressions in evaluation */
+    int depth; /* sum of the heights of all parameters' expressions that are being evaluated */
     diags *diags;
 } valuation;
 

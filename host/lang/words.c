@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* Defines name(kind), which returns the kind's entry in the column that `row` selects. */
+/* Defines the function name(kind). It returns the part of the kind's row that the macro `row` selects. */
 #define COLUMN(name, kinds, rows, row) \
     const char *name(kinds kind) { \
         static const char *const text[] = {rows(row)}; \
