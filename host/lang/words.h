@@ -16,7 +16,7 @@
     X(INPUT, "an input")   /* may change during a run; its first value is a constant expression */ \
     X(LET, "a let")        /* shorthand for its expression */ \
     X(OUTPUT, "an output") /* computed for records; may be used by later outputs */ \
-    X(RECORD, "an output") /* the recorded output, with noise; only measures name it */
+    X(RECORD, "an output") /* an output with its noise added; only measures refer to it */
 
 #define SYMBOL_KIND(id, words) SYM_##id,
 typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
@@ -24,8 +24,8 @@ typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
 
 const char *symbol_kind_words(symbol_kind kind);
 
-/* Terms: the kind, its name, the quantity that a message calls undefined if the value is not finite, and the rule for
- * its dimension. The rule is "" if it depends on the coordinate (Q) or on the other side (equation). */
+/* Terms: the kind, its name, another name for messages about an undefined value, and the rule for its
+ * dimension. The rule is "" if the dimension depends on a coordinate (Q) or on the equation's other side (EQUATION). */
 #define TERM_KIND_ROWS(X) \
     X(T, "the kinetic energy", "the kinetic energy", \
       "kinetic energy T must be an energy [kg*m^2/s^2]") \
@@ -65,7 +65,7 @@ const char *contact_undefined(contact_kind kind); /* "the restitution, or the ga
 
 /* The places in which a statement may stand. */
 enum {
-    IN_FILE = 1, /* outside all blocks, also after the line `mechanism` */
+    IN_FILE = 1, /* outside all blocks */
     IN_MECHANISM = 2,
     IN_EFFECT = 4,
     IN_SCENE = 8,
@@ -79,7 +79,7 @@ enum {
     ENDS_EFFECT = 4,    /* at the start of a line in an effect: the effect's '}' is missing */
     ENDS_SCENE = 8,     /* the same, for a scene */
     ENDS_WHEN = 16,     /* the same, for a `when` */
-    INTO_EFFECT = 32,   /* in a scene, the message says that the statement belongs into an effect */
+    INTO_EFFECT = 32,   /* in a scene, the hint is to put the statement into an effect */
     BY_ENERGIES = 64,   /* only for mechanisms given by their energies */
     BY_EQUATIONS = 128, /* only for systems given by their equations */
     LISTS = 256         /* ITEM {, ITEM}: the reader reads one item; a line may end after a comma */

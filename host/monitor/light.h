@@ -24,8 +24,8 @@ typedef struct light {
     uint32_t crc;
 } light;
 
-/* Reads bytes[count]: noise, then one record. Drops the carriage returns of terminals. Returns NULL if the record is
- * whole, else the error in words, with *hint. */
+/* Reads the only record in bytes[count]. Other bytes may precede it. Drops carriage returns. Returns NULL if the record
+ * is correct, else an error message, for which *hint is the hint. */
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint);
 
 /* Returns the beginning of the last record (light_begin), the first byte after a record (light_end), or NULL. */

@@ -150,11 +150,11 @@ unsigned schema_bytes(const schema_field *fields, int count) {
 /* === the recording ============================================================================ */
 
 #define TICKS_PER_S 1e6
-/* Longest delay of an event after its time stamp; usually one or two control steps. */
+/* Longest time from an event's time stamp to its arrival. Usually it is one or two control steps. */
 #define SETTLED_US 50000
 /* Displayed length of a pulse if the rig does not report ends. */
 #define PULSE_US 100
-/* A larger gap in a channel's count is a restart of the rig. */
+/* If a frame's sequence number exceeds the expected one by this or more (modulo 2^16), the rig has restarted. */
 #define GAP_MOST 0x8000U
 
 enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP, EVENT_END };
@@ -171,7 +171,7 @@ static int64_t time_of(recording *r, uint32_t ticks) {
     return r->time_us + (int32_t)(ticks - r->ticks);
 }
 
-/* Sets the ticks, and their time, from which time_of() measures. */
+/* Makes `ticks` the origin from which time_of() measures. */
 static void go_on(recording *r, uint32_t ticks) {
     r->time_us = time_of(r, ticks);
     r->ticks = ticks;
@@ -180,7 +180,7 @@ static void go_on(recording *r, uint32_t ticks) {
 void recording_anew(recording *r) {
     r->counts.restarts += r->timed;
     r->time_us = r->expects ? r->expected_us : r->time_us;
-    r->timed = false; /* the next frame's ticks count as r->time_us */
+    r->timed = false; /* the next frame gets the time r->time_us */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
     r->ends = r->high[0] = r->high[1] = false; /* the new program may report no ends of pulses */
@@ -245,7 +245,7 @@ static void head(recording *r, const schema_channel *c) {
     }
 }
 
-/* A sample has its own values, then those of the whole frame. */
+/* Records a sample: its own values at `each`, then those at `once`, which all samples of its frame share. */
 static void take_sample(recording *r, const schema_channel *c, int64_t time_us, const uint8_t *each,
                         const uint8_t *once) {
     double values[1 + 2 * SCHEMA_FIELDS];

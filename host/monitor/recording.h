@@ -76,7 +76,7 @@ typedef struct recording {
     int signal[2 * SCHEMA_FIELDS]; /* signals of the run's fields */
     int pulse[2];
     bool ends;    /* the rig reports the ends of pulses */
-    bool high[2]; /* the sensor's pulse has not ended yet */
+    bool high[2]; /* the pulse of slot 1 or 2 has not ended yet */
     int trip;
     int columns;      /* the time and the run's fields */
     decimation *plot; /* rows for a picture, or NULL */

@@ -96,8 +96,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* "tel rate" comes last, because it starts frames, which only their schema explains. "id" comes first, because its
- * answer is unique. Lines before that answer may be for another program's questions. */
+/* "id" comes first, because its answer is unique: lines before it may answer another program's questions. "tel rate"
+ * comes last, because it starts the frames, and they cannot be read without the schema. */
 static const struct {
     const char *words;
     const char *answer; /* beginning of the answer */
@@ -125,7 +125,7 @@ const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
     return line;
 }
 
-/* A bare OK must be the whole line. */
+/* Returns true if the line begins with the answer. The answer "OK" must be the whole line. */
 static bool begins(const char *line, const char *answer) {
     return strcmp(answer, "OK") == 0 ? strcmp(line, answer) == 0
                                      : strncmp(line, answer, strlen(answer)) == 0;

@@ -23,12 +23,12 @@ typedef struct wire {
     uint8_t chunk[WIRE_ROOM]; /* bytes since the last zero */
     unsigned length;
     bool is_text;  /* the chunk is text */
-    bool is_frame; /* the chunk is a frame; neither flag: not known yet */
+    bool is_frame; /* the chunk is a frame. Until this is known, both flags are false */
     bool too_long;
     char line[WIRE_LINE + 1]; /* received text; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
-    bool torn; /* a zero or wire_forget() came in this line, which may begin with a frame's bytes */
+    bool torn; /* a zero or wire_forget() came in the line: it may begin with a frame's bytes */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
     uint64_t damaged; /* chunks between zeros that are no frame */
 } wire;
@@ -56,7 +56,7 @@ typedef struct dialogue {
     int asked; /* number of the current question */
     bool done;
     bool rate_refused;
-    bool was_off; /* telemetry was off, so the rig has restarted, or is another one */
+    bool was_off; /* telemetry was off: if it was on before, the rig restarted or is another one */
     char refused[DIALOGUE_REFUSAL]; /* the first refused question, and its answer; or "" */
 } dialogue;
 

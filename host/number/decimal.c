@@ -35,15 +35,15 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
 /* === decimal notation ========================================================================= */
 
 enum {
-    /* A midpoint of two doubles has at most 768 significant digits. So a longer number is on the same side of every
-     * midpoint as its first DIGITS_MAX digits, with a digit 1 appended if the rest is not zero. */
+    /* A midpoint of two doubles has at most 768 significant digits. So the digits after the first DIGITS_MAX matter
+     * only if one of them is not zero. A single digit 1 then replaces them. */
     DIGITS_MAX = 780,
     /* Limits of the first digit's decimal exponent. A number with a smaller exponent is below half of 2^-1074 and
      * becomes zero; one with a larger exponent becomes infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
-    /* Words of the largest number: 5^1106 has 2569 bits, 781 digits have 2595. The division shifts the shorter of two
-     * numbers to the length of the longer one plus one bit. */
+    /* Words of 32 bits of the largest number, with a margin. A number of 781 digits has 2595 bits, and 5^1104 has
+     * fewer. The division needs one more bit. */
     WORDS = 84,
     FIVES = 13, /* 5^13 is the largest power of 5 in a word */
     QUOTIENT_BITS = 64,
@@ -142,8 +142,8 @@ static void take_digit(digits *d, int digit, bool behind_point) {
     d->exponent -= behind_point ? 1 : 0;
 }
 
-/* Adds the exponent at `text`, which begins with an e, to *exponent. Digits beyond some 1e13 are ignored. Returns the
- * end of the exponent, or NULL if it has no digits. */
+/* Adds the exponent at `text`, which begins with an e, to *exponent. If the part read so far is 1e12 or more,
+ * further digits are ignored. Returns the end of the exponent, or NULL if it has no digits. */
 static const char *read_exponent(const char *text, int64_t *exponent) {
     const bool negative = text[1] == '-';
     const char *at = text + (negative || text[1] == '+' ? 2 : 1);
@@ -173,8 +173,8 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
     return quotient;
 }
 
-/* The bits of the double nearest to quotient * 2^exponent, or, if `rest`, to a slightly larger number. The quotient's
- * highest bit is bit 62 or 63. *side: the side of the double on which the number lies. */
+/* Returns the bits of the double nearest to a number. The number is quotient * 2^exponent, or slightly larger if `rest`
+ * is true. The quotient's highest bit is bit 62 or 63. *side: the sign of the number minus the double. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* exponent of the highest bit */

@@ -9,7 +9,7 @@
 
 #include "core/function_double.h"
 
-/* `high` is the double nearest to the sum, `low` the remainder. */
+/* The number is high + low. `high` is the double nearest to the number. */
 typedef wh_pair double_double;
 
 double_double double_double_of(double value);

@@ -1,4 +1,4 @@
-/* enclosure.c: interval functions by series, whose truncation error is added as an interval. */
+/* enclosure.c: interval functions by series, in which an interval replaces the omitted terms. */
 #include "enclosure.h"
 
 #include <math.h>
@@ -82,7 +82,7 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
            enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
-/* The sine of `rest` + `quarters` quarter turns, by the addition theorem at the middle of `rest`. */
+/* Encloses sin(rest + quarters * pi/2), by the addition theorem for middle + swing. */
 static enclosure wave(enclosure rest, int quarters) {
     const double middle = enclosure_middle(rest);
     const double radius = enclosure_radius(rest);
@@ -123,7 +123,7 @@ enclosure enclosure_cosine(enclosure a) {
     return enclosure_is_zero(a) ? enclosure_of(1.0) : turned(a, 1);
 }
 
-/* Returns true if `root` is whole and the exact root of `of`. Then the enclosure stays a point. */
+/* Returns true if `root` is a whole number and exactly the root of `of`. `root` then needs no outward rounding. */
 static bool is_whole_root(double root, double of) {
     return root <= 0x1p26 && number_nearest(root) == root && root * root == of;
 }
@@ -139,7 +139,7 @@ enclosure enclosure_root(enclosure a) {
                        is_whole_root(high, a.high) ? high : enclosure_above(high)};
 }
 
-/* Encloses the values on `a` of a rising function. at(x) encloses its value at x. */
+/* Encloses f(x) for all x in `a`, if f is a rising function and at(x) encloses f(x). */
 static enclosure rising(enclosure (*at)(double x), enclosure a) {
     const enclosure low = at(a.low);
     const enclosure high = enclosure_is_point(a) ? low : at(a.high);
@@ -178,7 +178,7 @@ enclosure enclosure_exp(enclosure a) {
     return rising(exponential, a);
 }
 
-/* log x = y + log(1 + z) with z = x e^-y - 1, for any approximation y of log x, and z / (1 + z) <= log(1 + z) <= z. */
+/* For any y, log x = y + log(1 + z) with z = x e^-y - 1. log(1 + z) is at least z / (1 + z) and at most z. */
 static enclosure logarithm(double x) {
     const double y = number_call(FN_LOG, x, 0.0);
     const enclosure z = enclosure_sub(
@@ -221,7 +221,7 @@ enclosure enclosure_power(enclosure a, enclosure exponent) {
     return enclosure_exp(enclosure_mul(exponent, enclosure_log(a)));
 }
 
-/* Encloses the values on `a` of a function that is monotonic from `least` to `most`, and is computed to 0.6 ulp. */
+/* Encloses f(x) for all x in `a` from `least` to `most`, if f is monotonic there and is computed to 0.6 ulp. */
 static enclosure steady(function_id function, enclosure a, double least, double most) {
     const double low = enclosure_lesser(enclosure_larger(a.low, least), most);
     const double high = enclosure_larger(enclosure_lesser(a.high, most), least);
@@ -236,7 +236,7 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* The angle of the vector (x, y): from the corners' angles, or any angle if the rectangle touches zero or the jump. */
+/* Encloses the angle of (x, y). It is largest and smallest at corners, except if y = 0 with x <= 0 is possible. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};
