@@ -235,6 +235,15 @@ static void name_contacts(traces *w) {
     }
 }
 
+/* An input with a rate is a column: its value changes. */
+static bool is_column(const image *im, int input) {
+    bool is = false;
+    for (int i = 0; i < im->drives; i++) {
+        is = is || im->drive[i].input == input;
+    }
+    return is;
+}
+
 traces *traces_open(FILE *out, const records *form) {
     const image *im = form->image;
     traces *w = alloc(1, sizeof *w);
@@ -264,9 +273,11 @@ traces *traces_open(FILE *out, const records *form) {
         vcd_scope(w->vcd, "inputs");
     }
     for (int i = 0; i < im->inputs; i++) {
-        const image_quantity *q = &im->input[i];
-        const int signal = name_quantity(w, q->name, q->text, &q->unit);
-        vcd_change(w->vcd, signal, 0, image_shown(&q->unit, q->value));
+        if (!is_column(im, i)) {
+            const image_quantity *q = &im->input[i];
+            const int signal = name_quantity(w, q->name, q->text, &q->unit);
+            vcd_change(w->vcd, signal, 0, image_shown(&q->unit, q->value));
+        }
     }
     name_contacts(w);
     return w;

@@ -201,9 +201,12 @@ static derived scene_of_bodies(const bodies *b) {
              "when z crosses %.9f [m] rising { set w' = %.9f [rad/s] }\n"
              "scene s%s { start x = %.9f [m], y' = %.9f [m/s], z' = %.9f [m/s]\n"
              "step %u [ms]; until 0.9 [s] }\n",
-             b->inputs ? "input u = 3 [kN] \"pulls\"\ninput v = 2\n" : "", b->restitution,
-             b->normal_N, b->holds_m, b->crosses_m, b->turns_radps, b->titled ? " \"a title\"" : "",
-             b->height_m, b->slides_mps, b->passes_mps, b->step_ms);
+             b->inputs ? "input u = 3 [kN] \"pulls\"\ninput v = 2\n"
+                         "input r rate q = 1 [m]\ninput q = 0.25 [m/s]\n"
+                       : "",
+             b->restitution, b->normal_N, b->holds_m, b->crosses_m, b->turns_radps,
+             b->titled ? " \"a title\"" : "", b->height_m, b->slides_mps, b->passes_mps,
+             b->step_ms);
     derived d = derived_surely(derived_scene(text, "s"), text);
     return d;
 }
@@ -266,6 +269,14 @@ TEST(traces, moments) {
             static const double at_start = 0.0;
             expect_changes("u_kN", &at_start, (const double[]){3.0}, 1, units_per_s);
             expect_changes("v", &at_start, (const double[]){2.0}, 1, units_per_s);
+            expect_changes("q", &at_start, (const double[]){0.25}, 1, units_per_s);
+            in_head(" r $end\n"); /* once: the input with a rate is a column */
+            const int moves = signal_named("r");
+            double last = 1.0;
+            for (int i = 0; i < dump.changes; i++) {
+                last = dump.change[i].signal == moves ? dump.change[i].value : last;
+            }
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 + 0.25e-3 * b.step_ms * (double)b.every, 1.225, last);
         }
         TEST_ASSERT_TRUE(fabs((double)dump.end - 0.9 * units_per_s) <= 1.0);
         free(dump.head);
