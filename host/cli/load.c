@@ -360,7 +360,7 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        const bool *conserve = request->conserve ? made->instance->conserve : NULL;
+        const bool *conserve = request->conserve ? made->equations->instance->conserve : NULL;
         made->image =
             image_make(made->equations, conserve, &request->settings, request->use, s->errors);
     }
