@@ -42,8 +42,8 @@ void records_read(records *r, void *run, double time_s);
 bool records_write(const records *r);
 
 /* === waves of a run =================================================================================== */
-/* A run for waveform viewers, as a value change dump (host/io/vcd.h). The columns of the records and the initial values
- * of inputs are real signals. A wire is high while a stop rests, a hold is active, a friction sticks, or a `when` is
+/* A run for waveform viewers, as a value change dump (host/io/vcd.h). The columns of the records and the constant
+ * inputs are real signals. A wire is high while a stop rests, a hold is active, a friction sticks, or a `when` is
  * above its value. An event marks the instant of an impact at a stop, or of a crossing of a `when`. If a step has more
  * than WH_EVENT_LOG events (core/state.h), the dump has only the first ones. */
 
