@@ -1,5 +1,5 @@
-/* system.h: services of the operating system, in host/os/posix. In host/os/none, for machines without such a system,
- * there are no interrupts, and no program can be started. */
+/* system.h: services of the operating system. host/os/posix has them all. host/os/none serves machines without such a
+ * system: it has no interrupts, temporary files or locks, and it starts no programs. */
 #ifndef OS_SYSTEM_H
 #define OS_SYSTEM_H
 
@@ -26,7 +26,7 @@ double system_now_s(void);
 /* Makes a temporary folder; the XXXXXX at the end of `name` is replaced. Returns false, with errno, after an error. */
 bool system_scratch_folder(char *name);
 
-/* Locks the file until it is closed. Returns false if another program has locked it; true if locks do not exist. */
+/* Locks the file until it is closed. Returns false only if another program has locked it: locks may not exist. */
 bool system_lock(FILE *file);
 
 void system_set_mode(FILE *file, unsigned mode);
@@ -34,9 +34,10 @@ void system_set_mode(FILE *file, unsigned mode);
 /* A temporary file, which vanishes when it is closed. Returns NULL, with errno, after an error. */
 FILE *system_scratch(void);
 
-/* Start a shell command, and return a stream from its output or to its input. system_write_to(): output and messages go
- * to these files. NULL, with errno, if the command cannot be started. Writes fail if it has ended. */
+/* Starts a shell command. Returns a stream of its output, or NULL, with errno, if it cannot be started. */
 FILE *system_read_from(const char *command);
+/* Like system_read_from(), but returns a stream to the command's input. Its output and messages go to the two files.
+ * Writing to the stream fails if the command has ended. */
 FILE *system_write_to(const char *command, FILE *output, FILE *messages);
 /* Waits for the command's end. Returns its exit status, or -1 if it has none or `command` is NULL. */
 int system_end(FILE *command);

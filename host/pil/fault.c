@@ -211,8 +211,8 @@ static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
 static const struct {
     fault_kind kind;
     const char *input;
-    bool times;   /* true: input times the fault's size; false: a new value */
-    double value; /* the new value; 0: the fault's size */
+    bool times;   /* true: multiply the input by the fault's size; false: replace the input */
+    double value; /* the input's new value; 0: the fault's size is the new value */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
     {FAULT_CELL_GAIN, "cell_gain", true, 0.0},
@@ -293,7 +293,7 @@ static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken)
     }
 }
 
-/* Positions are in degrees for an angle, else in SI. */
+/* FAULT_EDGE_PLACE: the size is in degrees if the sensor reads an angle, else in SI units. */
 static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
     plant *p = plan->plant;
     if (f->kind == FAULT_EDGE_JITTER) {

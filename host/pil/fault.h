@@ -1,8 +1,8 @@
-/* fault.h: injected faults in a run in the loop: of sensors, load cell, supply, drive stage, mechanism, line, computing
- * time; or a pressed stop, or a processor reset. The controller's code has no injected faults. The syntax is
- * KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1; without it, all edges or the first
- * sample. WHEN is a time, or NOTE=VALUE, the moment when the firmware's note equals the value, or NOTE=VALUE~TIME, this
- * time later. Without WHEN, a fault begins at the start; without DURATION, it lasts to the end. */
+/* fault.h: injected faults in a run in the loop. The controller's code is not changed. A fault is
+ * KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1. Without it, a fault of edges affects
+ * all edges, but a fault of samples only channel 1. WHEN is TIME, NOTE=VALUE or NOTE=VALUE~TIME. With NOTE=VALUE, the
+ * fault begins when the firmware's note equals VALUE. ~TIME delays this. Without WHEN, a fault begins at the start.
+ * Without DURATION, it lasts to the end. */
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 
@@ -12,14 +12,14 @@ typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
     FAULT_INPUT,     /* an input of the scene (table in fault.c) */
-    FAULT_ORDERS,    /* orders, and their computing time */
+    FAULT_ORDERS,    /* the firmware's orders, or the time to compute them */
     FAULT_LINE,      /* messages lost on the line */
-    FAULT_PARAMETER, /* a parameter during the whole run: the loader calls fault_parameter() */
+    FAULT_PARAMETER, /* a parameter, for the whole run: see fault_parameter() */
     FAULT_SENSORS,   /* edge positions and jitter */
     FAULT_PROCESSOR  /* the processor restarts */
 } fault_place;
 
-/* X(which, word, place, default size, least, most, unit, words). least = most: no size. */
+/* X(which, word, place, default size, least, most, unit, words). If least == most, this kind has no size. */
 #define FAULT_EDGE_ROWS(X) \
     X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
     X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "this number of pulses is lost") \
@@ -116,7 +116,7 @@ typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
 #define FAULT_ONE(which, word, place, size, least, most, unit, words) +1
 enum { FAULT_KINDS = FAULT_ROWS(FAULT_ONE) };
 #undef FAULT_ONE
-/* A group of faults as cases of a switch, so that the compiler reports a missing one. */
+/* Makes a case for each fault of a group. The switch has no default, so that the compiler reports a missing fault. */
 #define FAULT_CASE(which, word, place, size, least, most, unit, words) case which:
 
 typedef struct fault_row {

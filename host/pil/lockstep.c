@@ -24,7 +24,7 @@ static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* Records a received frame, by coding it again: a frame has only one coding. */
+/* Records a received frame. Coding it again gives the received bytes, because a frame has only one coding. */
 static void keep_heard(talk *t, const wh_frame *frame) {
     uint8_t coded[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     keep_on_tape(t, coded, wh_frame_write(frame, coded, sizeof coded));
@@ -41,7 +41,7 @@ static void say_silent(const talk *t) {
                                         "without end");
 }
 
-/* The user's interrupt may end the firmware before Whirl notices it. */
+/* After an interrupt, the run counts as stopped, even if the firmware's end is noticed first. */
 static lockstep_end when_ended(void) { return interrupted ? LOCKSTEP_STOPPED : LOCKSTEP_DONE; }
 
 static bool hear_frame(talk *t, wh_frame *frame) {
@@ -109,7 +109,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
     return ends(t->report, when_ended());
 }
 
-/* Receives the next frame except remembered data and repeated hellos, which answer repeated requests. */
+/* Stores frames of remembered data, and skips extra answers to ask_for_hello(). Receives the next other frame. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
         if (frame->kind == WH_FRAME_END) {
@@ -216,7 +216,7 @@ static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *wor
     return take_hello_frame(t, &frame, hello, signal, words);
 }
 
-/* On a serial line, the firmware sends its hello until the first message comes. Other frames are of an earlier run. */
+/* For a serial line: repeats the request until the hello comes. Skips other frames, which an earlier run has left. */
 static bool ask_for_hello(talk *t) {
     const double patience_s = t->guest.request.patience_s;
     wh_frame frame;
@@ -338,11 +338,11 @@ void talk_end(talk *t) {
 
 /* === turns ==================================================================================== */
 
-/* Most exchanges at one plant time: a firmware that catches up on missed periods has several. */
+/* Limit of exchanges at the same plant time. A firmware that catches up on missed periods needs several. */
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
-#define PIECE_STEPS 1e4 /* most steps in a piece: steps may be arbitrarily short */
+#define PIECE_STEPS 1e4 /* limits the work in a piece, because steps may be arbitrarily short */
 
 static void note_most(peak *m, double value, double at_s) {
     if (value > m->value) {

@@ -1,6 +1,6 @@
-/* lockstep.h: a firmware image and a plant, or a tape instead of the plant, that compute by turns until the firmware
- * ends. Each waits for the other, so a run is reproducible. Computing takes plant time: instructions times seconds per
- * instruction. This delays the firmware's outputs and its next readings. */
+/* lockstep.h: firmware and plant that compute by turns. A tape can replace the plant. Each side waits for the other, so
+ * a run is reproducible. Computing takes plant time: instructions times seconds per instruction. This delays the
+ * firmware's outputs and its next readings. */
 #ifndef PIL_LOCKSTEP_H
 #define PIL_LOCKSTEP_H
 
@@ -10,8 +10,8 @@
 #include "host/pil/plant.h"
 
 /* The interface for faults (fault.h) and observers. start() is called before the first message. orders() may change
- * each message of the firmware, and add to *late_s, its delay. readings() may change each message to the firmware. A
- * tape has the messages that the firmware received and sent. A NULL function is not called. */
+ * each message of the firmware, and delay it by adding to *late_s. readings() may change each message to the firmware.
+ * A tape has orders before such changes, and readings after them. A NULL function is not called. */
 typedef struct tap {
     void *of;
     bool (*start)(void *of, const wh_hello *hello,
@@ -92,7 +92,7 @@ typedef struct talk {
     wh_signal signal[WH_SIGNALS_MAX];
     uint8_t words[GUEST_LINE_BYTES]; /* texts of the hello */
     unsigned outputs;                /* number of outputs and notes */
-    uint16_t sequence;               /* number of the last readings */
+    uint16_t sequence;               /* number of the present exchange, from 0 after each start */
     wh_reset remembered;             /* data that the firmware keeps over a reset */
     bool said_end;                   /* the firmware sent WH_FRAME_END with end_status */
     int end_status;
@@ -102,8 +102,8 @@ typedef struct talk {
 /* Starts the guest and receives its hello. Returns false after an error (reported; reason in report->end). */
 bool talk_start(talk *t, const lockstep_request *request, lockstep_report *report, FILE *onto);
 
-/* Restarts the processor after a reset: a new guest, which knows only the reset's data. `ticks` goes on the tape.
- * Returns false (reported) if it does not start, sends another hello, or the user interrupts. */
+/* Restarts the processor after a reset, as a new guest. It gets only the data in `reset`. The tape gets `ticks`.
+ * Returns false like talk_start(), and also if the guest sends another hello, or the user interrupts. */
 bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset);
 
 /* Sends readings at `ticks`. Returns false if the guest is gone, or the user interrupts (reason in report->end). */

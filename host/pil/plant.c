@@ -132,7 +132,7 @@ static bool bind_one(bound *b, const image *im) {
     return has_good_range(b);
 }
 
-/* Reads the words NAME=OTHER of --bind, each for a different signal. Returns false, reporting another word. */
+/* Reads the words NAME=OTHER of --bind. Returns false (reported) if one is invalid, or NAME is unknown or repeated. */
 static bool take_renames(binding *b, const char *renames) {
     for (const char *at = renames; at != NULL;) {
         const size_t length = strcspn(at, ",");
@@ -228,8 +228,7 @@ bool recorded_close(recorded *r) {
 
 #define TURN_RAD 6.283185307179586477
 #define TURN_DEG 360.0
-/* The end of a step has reached an instant if it is at most this part of a tick earlier (round-off). */
-#define NEARLY 1e-6
+#define NEARLY 1e-6 /* ticks: because of round-off, an instant counts as reached this much early */
 
 bool plant_read_places(const char *text, plant_request *to) {
     unsigned count = 0;
@@ -377,7 +376,7 @@ static void watch(plant *p) {
 
 /* --- a reset of the controller ----------------------------------------------------------------------------*/
 
-/* Begins a reset that is due, and returns true if it did. Waiting orders are dropped. */
+/* If a reset is due, begins it, drops waiting orders, and returns true. */
 static bool is_reset(plant *p) {
     if (!p->reset.now && plant_has_reached(p, p->reset.at_ticks)) {
         p->reset.now = true;
@@ -412,7 +411,7 @@ static void enqueue(plant_queue *q, plant_event event) {
     q->event[at] = event;
 }
 
-/* An edge's quantity over a step: values, and rates times the step, at both ends. */
+/* An edge's quantity at both ends of a step: its values, and its slopes, which are rates times the step's length. */
 typedef struct span_of_step {
     double from;
     double to;
@@ -435,7 +434,7 @@ static double at_part(const span_of_step *s, double part) {
     return s->from + ((a * part + b) * part + s->slope_from) * part;
 }
 
-/* Bisection for the part of the step at which the cubic meets `level`, which lies between the cubic's ends. */
+/* Bisection: returns the part of the step at which the cubic equals `level`. The cubic's ends must enclose it. */
 static double part_at(const span_of_step *s, double level) {
     double low = 0.0;
     double high = 1.0;
@@ -449,8 +448,8 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* Does the quantity enter the edge's range in this step? *level: the crossed end of the range; for an angle, shifted by
- * turns to the next one in the direction of motion. */
+/* Does the quantity enter the edge's range in this step? *level gets the end of the range that it meets first. An
+ * angle's range repeats every turn: then *level is the next such end in the direction of motion. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;
@@ -489,8 +488,9 @@ int32_t hello_count(const wh_signal *s, double value, uint8_t *status) {
     const double high = (double)s->high;
     const bool good = value > low && value < high;
     *status = good ? WH_SAMPLE_GOOD : WH_SAMPLE_SATURATED;
-    value = good ? value : value <= low ? low : high;                 /* high for NaN */
-    return (int32_t)number_floor(value / (double)s->per_count + 0.5); /* fits: has_good_range() */
+    value = good ? value : value <= low ? low : high; /* high for NaN */
+    /* int32_t has space for the result, because has_good_range() checked the range. */
+    return (int32_t)number_floor(value / (double)s->per_count + 0.5);
 }
 
 static void take_samples(plant *p) {

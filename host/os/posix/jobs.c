@@ -14,8 +14,7 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 
-/* Points that each worker may be ahead of the first undelivered point. */
-#define AHEAD 8U
+#define AHEAD 8U /* points per worker in the window (pool.window) */
 #define PAUSE_MS 50
 #define ASK_US 200000
 
@@ -36,7 +35,7 @@ typedef struct worker {
 } worker;
 
 typedef struct slot {
-    char *row; /* NULL: not received; the reason follows its zero byte */
+    char *row; /* NULL: not received. The allocation also holds `reason`. */
     const char *reason;
     bool good;
 } slot;
@@ -45,10 +44,10 @@ typedef struct pool {
     const jobs *jobs;
     worker *workers;
     int started;
-    /* The pipe of points' numbers. The parent keeps its read end open: else a write fails if all workers are lost. */
+    /* The pipe of points' numbers. The parent keeps its read end open: writes must work if all workers have ended. */
     int tickets[2];
-    slot *slots; /* [window] by point % window */
-    uint64_t window;
+    slot *slots;     /* [window]; a point uses slots[point % window] */
+    uint64_t window; /* at most this number of points is sent, but not delivered */
     uint64_t sent;
     uint64_t delivered; /* all points below this are delivered */
 } pool;
@@ -228,8 +227,7 @@ static jobs_result attend(pool *p) {
         const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
         for (int i = 0; i < p->started && heard > 0; i++) {
             if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
-                /* workers must not end before the pipe of numbers is closed */
-                result = JOBS_WORKER_LOST;
+                result = JOBS_WORKER_LOST; /* too early: the pipe of numbers is still open */
             }
         }
         if (!deliver(p) || !j->pause(j->context, p->delivered)) {
