@@ -705,7 +705,7 @@ static int count(const trials *t, table_row *row) {
     char *column[COST_COLUMNS];
     char line[1024];
     int status = 0;
-    row->cost = (cost){.why = "", .state_bytes = runs ? (cost_figure){0} : row->cost.state_bytes};
+    row->cost = (cost){.why = "", .state_bytes = !runs ? row->cost.state_bytes : (cost_figure){0}};
     for (int p = 0; p < (runs ? t->points : 1) && status == 0; p++) {
         const int point = runs ? p : row->result.point;
         char *measure = table_measure_line(t, &row->setting, row->pace, point);
