@@ -33,8 +33,8 @@ static uint64_t mixed(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/* Returns the number of doubles by which an inexact result of these operands is moved, positive if upwards. From
- * FOLDING_SOME on, the number depends only on the operands' digits, not on their signs, powers of two and order. */
+/* Returns the number of doubles by which an inexact result is moved up, or down if negative. In the ways from
+ * FOLDING_SOME on, the number depends only on the digits of x and y, not on their signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -55,8 +55,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Returns the double nearest to the exact value, moved by moved_by() if it is inexact. FOLDING_OTHER moves by two
- * doubles, past the exact value, because several round-offs may add up to that much. */
+/* Returns the double nearest to `exact`. If it is inexact, it is moved by moved_by() doubles. FOLDING_OTHER moves it by
+ * two doubles, past `exact`, because the sum of several round-offs may be as large. */
 static double other_neighbour(double_double exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -92,7 +92,7 @@ static void note_rest(double x) {
     }
 }
 
-/* Records the loss in x + y. If only one addend is a residue, the loss is its ratio to the other addend. */
+/* Records the loss in x + y. If only one addend is a residue, the loss is |residue / other addend|. */
 static void note_sum(double x, double y, double sum) {
     if (x == 0.0 || y == 0.0) {
         return;
@@ -111,7 +111,7 @@ static void note_sum(double x, double y, double sum) {
     note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
 }
 
-/* Records the loss in a power of a residue. A negative power has no correct digit; any other power is a residue. */
+/* Records the loss in `power`, the power of a residue. It is a residue, or if exponent < 0, no digit is correct. */
 static void note_power(double base, double exponent, double power) {
     if (is_rest(base)) {
         if (exponent < 0.0) {
@@ -122,8 +122,8 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* Records the loss in a function of a residue. If its value differs from the value at zero, no digit is correct. If the
- * value at zero is zero, the function's value is a residue. */
+/* Records the loss in a function of a residue. If `value` is not near `at_zero`, no digit is correct.
+ * Otherwise, `value` is a residue if `at_zero` is 0. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -132,8 +132,8 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. There is no loss in a sine,
- * cosine or tangent (`turns`) whose slope is only the round-off of a large x. */
+/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. But sin(90 deg) has no loss:
+ * its exact slope is 0, and `slope` is only the round-off of x. `turns`: the function is a sine, cosine or tangent. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
@@ -148,7 +148,7 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* FOLDING_OTHER keeps products and quotients: in (K + k)/K - 1, a changed quotient could cancel the changed sum. */
+/* FOLDING_OTHER moves no products or quotients: in (K + k)/K - 1, a moved quotient could undo the move of K + k. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }
@@ -185,8 +185,8 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Returns true if the value has no round-off, as abs(), sign(), min() and max() have none. A root is exact if it has
- * few digits (is_short()). Another function is exact if its value has few digits, and x is 0, 1 or -1. */
+/* Returns true if `value` has no round-off. abs(), sign(), min() and max() never have any. A root has none if it has
+ * few digits (is_short()). All other functions have none if `value` has few digits, and x is 0, 1 or -1. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

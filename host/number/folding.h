@@ -4,12 +4,12 @@
  * that does not matter. But if elimination, or a sum at run time, cancels the larger addend, only the smaller one with
  * its lost digits remains. All users of the folded sum have lost the same digits, so no comparison of two runs shows
  * the loss. Two checks address this:
- *   - A sum records its loss: its round-off, relative to its smaller addend and to its result. A residue is a result
- *     that is only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3, or a product with a residue. Up to 1e-12 in
- *     SI units it is no loss. A sum with a residue as a large part, or a division by a residue, is a loss.
+ *   - A sum records its loss: its round-off, relative to the smallest of the addends and the result. A residue is a
+ *     result that is only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3, or a product with a residue. A residue is
+ *     a loss if it exceeds 1e-12 in SI units, if it is a divisor, or if it is a large part of a sum.
  *   - A derivation can be repeated in another *way*, in which inexact results are moved by one or two doubles, and
- *     nearly equal numbers are not merged. By chance, round-offs may cancel in one way, so there are several (Vignes,
- *     A stochastic arithmetic for reliable scientific computation, 1993, does this at run time).
+ *     nearly equal numbers are not merged. There are several ways, because round-offs may cancel in one by chance
+ *     (Vignes, A stochastic arithmetic for reliable scientific computation, 1993, does this at run time).
  *
  * folding_use() sets the `folding` of the whole program, as a processor's rounding mode is set. */
 #ifndef NUMBER_FOLDING_H
@@ -38,15 +38,16 @@ typedef struct folding {
 folding *folding_use(folding *f);
 int folding_way(void);
 
+/* These functions record losses if the way is FOLDING_NEAREST. */
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
-/* The five functions record losses. A sine, cosine or tangent within the round-off of its angle is a residue. */
 double folding_power(double base, double exponent);
+/* A sine, cosine or tangent is a residue if it is not larger than the round-off of its angle. */
 double folding_call(function_id function, double x, double y);
-/* Returns true if `left`, the difference of two numbers of absolute value `size`, counts as zero: |left| <= part *
- * size. If |left| also exceeds the round-off of a few operations, a loss is recorded. In ways other than
- * FOLDING_NEAREST, only an exact zero counts as zero. */
+/* Returns true if |left| <= part * size: then `left` counts as zero. It is the difference of two numbers, and `size` is
+ * their absolute value. Records a loss if `left` counts as zero, but exceeds the round-off of a few operations. In ways
+ * other than FOLDING_NEAREST, only an exact zero counts as zero. */
 bool folding_cancels(double left, double size, double part);
 /* folding_cancels() for x - y, with the larger absolute value as `size`. */
 bool folding_same(double x, double y, double part);

@@ -59,7 +59,7 @@ _Static_assert(1 FUNCTION_ROWS(OF_CORE) == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
 
 /* The sign of x; zeros and NaN are returned unchanged. */
 static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
-/* The slope of max(x, y) by x, with lead = x - y; or of min(x, y) by x, with lead = y - x. */
+/* The slope of max(x, y) by x if `lead` is x - y. The slope of min(x, y) by x if `lead` is y - x. */
 static double share_of(double lead) { return 0.5 + 0.5 * sign_of(lead); }
 
 #define FUNCTION_CORE(value) value
@@ -145,7 +145,7 @@ double number_split(double x, int *exponent) {
     return wh_of_bits((bits & ~(UINT64_C(2047) << 52)) | (UINT64_C(1022) << 52));
 }
 
-/* Returns the whole number w with size = w 2^*exponent, *exponent >= -1074, for a finite size >= 0. */
+/* Splits a finite size >= 0: size = w * 2^e. Returns the whole number w, and sets *exponent to e >= -1074. */
 static uint64_t whole_of(double size, int *exponent) {
     const uint64_t bits = wh_bits(size);
     const int field = (int)(bits >> 52);
@@ -180,9 +180,9 @@ double number_centred(double x, double y) {
     if (!(WH_ABS(x) < WH_INFINITY) || !(by > 0.0)) {
         return WH_NAN;
     }
-    /* modulo 2 y, so that a tie goes to the even multiple of y */
+    /* the remainder of x / (2 * by), because a tie must go to the even multiple of `by` */
     double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
-    const bool twice = by < 0x1p-1021; /* half of y may underflow */
+    const bool twice = by < 0x1p-1021; /* because by / 2 may underflow */
     if (twice ? rest + rest > by : rest > 0.5 * by) {
         rest -= by;
         rest = (twice ? rest + rest >= by : rest >= 0.5 * by) ? rest - by : rest;

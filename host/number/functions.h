@@ -14,15 +14,15 @@
 
 /* === rows of functions ================================================================== */
 /* The language's functions. Code that lists them uses these rows, or switches over function_id with -Wswitch-enum. So
- * the build fails if a new function lacks code. A new row goes to the end.
+ * the build fails if a new function lacks code. Add a row at the end: the order affects expressions and models' hashes.
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
  *
- *   id           its constant is FN_id. The order of rows enters the hashes of models and the order of expressions.
+ *   id           its constant is FN_id
  *   word         its name in the language, in text and in Octave; its name in C is wh_word
  *   arguments    1: x, 2: x and y, in the order in which they are written
  *   dimensions   the name after TAKES_: dimensions of the arguments and the result
- *   range        EVERYWHERE: real for all real numbers. SOMEWHERE: for some arguments NaN, and complex in Octave.
+ *   range        EVERYWHERE: real for all real arguments. SOMEWHERE: for some, the result is NaN (Octave: complex).
  *   latex        the text before the parenthesis
  *   value        FUNCTION_CORE(...): a function of core/function.h, in float and double, on every board.
  *                FUNCTION_OWN(operation, ...): its own operation in the operation list, and its value in double.

@@ -59,7 +59,7 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
     uint128 left = {0, 0};
     uint128 quotient = {0, 0};
     for (int bit = 127; bit >= 0; bit--) {
-        /* the shifted number is 2^128 or more, and so above `b` */
+        /* if true, the shifted number is 2^128 or more, and so above `b` */
         const bool carried = left.high >> 63 != 0;
         left = uint128_plus(uint128_left(left, 1), uint128_of(uint128_right(a, bit).low & 1U));
         if (carried || !uint128_below(left, b)) {
@@ -84,7 +84,7 @@ typedef struct end {
 } end;
 
 /* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete Mathematics, section
- * 4.5). If no whole number lies between the ends, their whole parts are equal. */
+ * 4.5). Subtracts the whole part of `low` and takes reciprocals, until a whole number lies between the ends. */
 static whole_ratio between(end low, end high) {
     /* p / q: the last convergent; p_before / q_before: the one before it */
     uint128 p = uint128_of(1);
@@ -113,7 +113,7 @@ static whole_ratio between(end low, end high) {
     }
 }
 
-/* The simplest fraction strictly within two units of the 53rd bit of `value`: a relative error below 2^-51. */
+/* Returns the simplest fraction that differs from `value` by less than two units in the last of its 53 bits. */
 static whole_ratio simplest(double value) {
     int exponent;
     /* the mantissa is below one and has 53 bits after the point */
@@ -136,8 +136,8 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* Finds the decimal with the fewest digits within a relative error of 2^-52. *said: 10^digits. Returns false if it
- * needs more than 15 digits, or more than 60 bits as a fraction. */
+/* Finds the decimal with the fewest digits within a relative error of 2^-52, and sets *said to 10^digits. Returns false
+ * if the decimal has more than 15 digits, or if its numerator or denominator has more than 60 bits. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
@@ -223,7 +223,7 @@ double ratio_times(uint64_t count, whole_ratio each) {
     int shift = 0;
     while (
         !uint128_is_zero(of) &&
-        /* until `of` has 127 bits: then the quotient has at least 66, because a denominator has at most 60 */
+        /* 127 bits in `of` give a quotient of at least 67 bits, because a denominator has at most 60 */
         of.high >> 62 == 0) {
         of = uint128_left(of, 1);
         shift++;

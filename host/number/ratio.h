@@ -1,5 +1,4 @@
-/* ratio.h: steps and end times as fractions, so that counts and times are exact. Only here times become numbers of
- * steps. */
+/* ratio.h: steps and end times as fractions, so that numbers of steps are exact. */
 #ifndef NUMBER_RATIO_H
 #define NUMBER_RATIO_H
 
@@ -36,13 +35,13 @@ typedef struct whole_ratio {
     uint64_t denominator; /* > 0 */
 } whole_ratio;
 
-/* The fraction that `value` was before a conversion of units and rounding to double: the shorter of two candidates
- * within a relative error of 2^-51. They are the decimal with the fewest digits (at most 15) and the simplest fraction.
- * So 0.0011000000000000001 is 11/10000, and 1/44100 is exact. A decimal with more than 60 bits in numerator or
- * denominator is no candidate. Values <= 0 give 0. Others are limited to RATIO_LEAST and RATIO_MOST. */
+/* Returns the fraction that `value` probably was before a conversion of units and a rounding to double: 11/10000 for
+ * 0.0011000000000000001, and 1/44100 for the double nearest to 1/44100. Two candidates have a relative error below
+ * 2^-51: the shortest decimal (at most 15 digits, and 60 bits in numerator and denominator), and the simplest fraction.
+ * The one with fewer digits is chosen. Values <= 0 give 0. Others are limited to RATIO_LEAST and RATIO_MOST. */
 whole_ratio ratio_of(double value);
 
-/* *count: whole / part to nearest, ties rounded down. Returns false if it exceeds 2^63. `part` must be above zero. */
+/* Sets *count to whole / part, rounded to the nearest, ties down. Returns false above 2^63. `part` must not be 0. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
 
 /* *count: the number of steps in `each_s`. Returns false if the quotient is not whole within 1e-6 (relative), or is

@@ -50,7 +50,7 @@ static bool is_at(FILE *file, const char *name) {
            one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* Opens a file, and locks an ordinary one. NULL, with errno: EBUSY if another process writes or just replaced it. */
+/* Opens a file, and locks an ordinary one. Sets errno to EBUSY if another process writes it or just replaced it. */
 static FILE *open_alone(const char *name, bool empties) {
     FILE *file = fopen(name, "ab");
     if (file != NULL && atomic_file_is_regular(file)) {
@@ -65,7 +65,7 @@ static FILE *open_alone(const char *name, bool empties) {
     return file;
 }
 
-/* Opens NAME.part, or `name` itself if it cannot be replaced; `name` is emptied if `empties`. */
+/* Opens NAME.part. If `name` cannot be replaced, opens `name` itself, and empties it if `empties`. */
 static FILE *open_part(const char *name, bool empties) {
     struct stat there;
     if (!can_be_replaced(name, &there)) {
@@ -115,7 +115,7 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
         fputc('\n', file);
         (void)fflush(file);
     }
-    /* rename or remove before fclose() unlocks NAME.part: later it may be another process's */
+    /* this must be before fclose(), which unlocks NAME.part for other processes */
     bool good = taken && (in_place || !keep || rename(part, name) == 0);
     if (!in_place && !(good && keep)) {
         (void)unlink(part);

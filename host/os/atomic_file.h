@@ -6,13 +6,13 @@
 #include <stdio.h>
 
 /* Opens a file for writing; "-" is standard output. Devices, pipes, links, and files in folders without write
- * permission are written in place. An ordinary file is locked until it is closed. NULL: reported. */
+ * permission are written in place. An ordinary file is locked until closed. Returns NULL on failure (reported). */
 FILE *atomic_file_open(const char *name);
 /* Like atomic_file_open(), but in place, so that the file can be read while it grows. "-" is an ordinary name. */
 FILE *atomic_file_open_in_place(const char *name);
 
-/* Closes the file, which may be NULL. NAME.part replaces NAME if all text was written and `keep`. A file written in
- * place is only closed. Standard output is checked at the program's end (host/whirl.c). False: reported. */
+/* Closes the file, which may be NULL. If `keep`, and if all text was written, NAME.part replaces NAME. Standard output
+ * stays open: host/whirl.c checks it at the program's end. Returns false on failure (reported). */
 bool atomic_file_close(FILE *file, const char *name, bool keep);
 
 /* Writes a whole file, as printf() would print it, by atomic_file_open() and atomic_file_close(). False: reported. */

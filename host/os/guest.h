@@ -1,5 +1,5 @@
-/* guest.h: the process that runs a firmware image, and the line to it: two pipes, which are the guest's descriptors
- * HAL_LINK_DOWN and HAL_LINK_UP (hal/link.h). Pipes have no name, so opening cannot block, and no file remains. On
+/* guest.h: the process that runs a firmware image (the guest), and two pipes to it. The guest has them as descriptors
+ * HAL_LINK_DOWN and HAL_LINK_UP (hal/link.h). They are not named pipes: opening those can block, and leaves a file. On
  * Linux, the guest is killed when this process ends. */
 #ifndef OS_GUEST_H
 #define OS_GUEST_H
@@ -11,7 +11,7 @@
 
 #define GUEST_LINE_BYTES 4096
 
-/* An instruction in QEMU takes 2^GUEST_SHIFT ns of the guest's time, which a timer of 25 MHz resolves. */
+/* An instruction in QEMU takes 2^GUEST_SHIFT = 64 ns of guest time. A timer of 25 MHz (40 ns a count) resolves it. */
 #define GUEST_SHIFT 6
 
 /* Exit status if a program cannot be run, as in shells. */
@@ -46,7 +46,7 @@ typedef enum guest_heard {
     GUEST_STOPPED /* the user interrupted */
 } guest_heard;
 
-/* Reads BOARD_MACHINE of boards/NAME/board.mk, below the working directory. Returns false if there is none. */
+/* Sets `machine` to BOARD_MACHINE in ./boards/BOARD/board.mk. Returns false if the file or the value is missing. */
 #define GUEST_MACHINE_BYTES 64
 bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
 

@@ -1,6 +1,6 @@
-/* jobs.h: points computed by several processes. The next free worker takes the next point's number from a pipe. Rows
- * come over a pipe for each worker, and are delivered in the order of points as soon as possible. A row must depend on
- * its point alone: then the output is the same for any number of workers. Workers end with their parent. */
+/* jobs.h: points computed by several processes, the workers. A free worker takes the next point's number from a pipe,
+ * and sends the point's row over its own pipe. The parent delivers rows in the order of points. A row must depend only
+ * on its point: then the output is the same for any number of workers. Workers end if their parent ends. */
 #ifndef OS_JOBS_H
 #define OS_JOBS_H
 

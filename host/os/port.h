@@ -9,13 +9,13 @@
 typedef struct port {
     int file;
     int failed;   /* errno of a failed read, or 0 */
-    bool is_line; /* a terminal with a peer; else a file or pipe, which has an end */
+    bool is_line; /* a terminal; false for a file or a pipe, which has an end */
 } port;
 
 #define PORT_SPEEDS "9600, 19200, 38400, 57600, 115200 or 230400"
 bool port_has_speed(double baud);
 
-/* Opens and locks a line, without echo and conversion. Returns false, with errno: EBUSY if another program has it. */
+/* Opens and locks a line in raw mode. On failure, returns false and sets errno: EBUSY if another program has it. */
 bool port_open(port *p, const char *name, double baud);
 
 /* Discards received bytes. */
