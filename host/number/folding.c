@@ -111,7 +111,7 @@ static void note_sum(double x, double y, double sum) {
     note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
 }
 
-/* Records the loss in `power`, the power of a residue. It is a residue, or if exponent < 0, no digit is correct. */
+/* Records the loss in a power of a residue. If exponent < 0, no digit is correct. If not, `power` is a residue. */
 static void note_power(double base, double exponent, double power) {
     if (is_rest(base)) {
         if (exponent < 0.0) {
