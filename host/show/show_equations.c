@@ -13,7 +13,7 @@
 static void show_equation(const show *s, const equations *e, int i);
 
 /* === show break =============================================================================== */
-/* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned; also within parentheses and below roots. */
+/* Breaks long LaTeX formulas at signs between terms or factors, also inside groups, into rows of amsmath's aligned. */
 
 /* Points in 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number. NARROWEST:
  * least width of a broken sum. */
@@ -159,7 +159,7 @@ static const char *next_break(span s, bool factors) {
 
 static char *broken(span s, int limit);
 
-/* The widest group of s, except names. */
+/* Returns the contents of the widest group in s that is neither part of a name nor already broken. */
 static span widest_group(span s) {
     span widest = {s.from, s.from};
     int most = 0;
@@ -234,7 +234,7 @@ static char *rows_of(span s, int limit, bool factors) {
     return text;
 }
 
-/* One line within the limit, or rows of amsmath's aligned. */
+/* Returns s, with line breaks if it is wider than the limit. */
 static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
         return alloc_copy(s.from, (size_t)(s.end - s.from));
@@ -593,7 +593,7 @@ static bool is_numbered(const char *name, const char *letter) {
            strspn(name + length, "0123456789") == strlen(name + length);
 }
 
-/* Returns the first of `letters` (up to NULL) without a numbered name in the mechanism, such as y1; else the last. */
+/* Returns the first free letter, else the last. A letter y is taken if the mechanism has a name such as y1. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
     const symbol *const *const list[] = {m->coordinates, m->parameters, m->inputs};
     const int count[] = {m->coordinate_count, m->parameter_count, m->input_count};
@@ -608,7 +608,7 @@ static const char *free_letter(const mechanism *m, const char *const *letters) {
     return *letters;
 }
 
-/* y(1) ... y(N): values, then rates, and so on, numbered as in the dissertation. */
+/* Returns the number of a component of the state: values come first, then rates, and so on, as in the dissertation. */
 static int show_y_number(const equations *e, int unknown_index, int primes) {
     int number = 1;
     for (int i = 0; i < e->count; i++) {
@@ -766,7 +766,7 @@ void show_lets_end(show *s, const char *heading, const char *behind, const char 
     size_t length;
     int used = 0;
     FILE *out = s->out;
-    for (int i = lets->count - 1; i >= 0; i--) { /* definitions may use earlier names */
+    for (int i = lets->count - 1; i >= 0; i--) { /* row i marks the earlier rows that it uses */
         lets->below = i;
         if (lets->row[i].used) {
             s->out = alloc_text(&text[i], &length);

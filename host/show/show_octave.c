@@ -1,5 +1,5 @@
-/* show_octave.c: the equations as a function file for Octave and Matlab, with the file's names: parameters, inputs and
- * state first, as in the listings of the dissertation's appendices. */
+/* show_octave.c: the equations as a function file for Octave and Matlab, with the names of the scene file. Parameters,
+ * inputs and state come first, as in the listings of the dissertation's appendices. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ typedef struct variables {
     int count;
 } variables;
 
-/* Adds a variable, "ddX" for X''. A taken name gets underscores at its end, or a v before a first underscore. */
+/* Adds a variable ("ddX" for X''). If its name is taken, appends "_", or prepends "v" if the name begins with "_". */
 static const char *add(variables *all, const symbol *sym, int primes, const char *name) {
     char *made = alloc_words("%.*s%s", primes, "ddddddddddddddd", name);
     bool taken = true;
@@ -163,7 +163,7 @@ void show_octave(FILE *out, const equations *e, bool (*is_free)(const char *name
     write_state(&s, e, false);
     char *text;
     size_t length;
-    s.out = alloc_text(&text, &length); /* definitions come before their use */
+    s.out = alloc_text(&text, &length); /* printed after the definitions that it uses */
     show_lets_begin(&s, e);
     write_highest(&s, e, &all);
     alloc_text_end(s.out);

@@ -20,7 +20,7 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* The bound compared with a limit: of a prediction that will be counted (`hopeful`) the lower one, else the upper. */
+/* Returns the bound to compare with a limit. `hopeful`: the row is predicted, and will be counted if it is chosen. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_request *w, const table *made, int i) {
@@ -40,7 +40,7 @@ static choice_row judged(const trials *t, const choice_request *w, const table *
     judge_limit(&row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row.load_most);
     judge_limit(&row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes),
                 bound_of(&c->flash_bytes, hopeful));
-    /* the stack is not needed if the RAM without it exceeds the limit */
+    /* if the RAM exceeds the limit without the stack, the row fails even if its stack is unknown */
     const double ram = bound_of(&c->ram_bytes, hopeful);
     const bool known = is_known(&c->ram_bytes) && (is_known(&c->stack_bytes) || ram > w->ram_bytes);
     judge_limit(&row, CHOICE_RAM, w->ram_bytes, known, ram + bound_of(&c->stack_bytes, hopeful));
@@ -67,7 +67,7 @@ static double figure_of(const table *made, const choice_row *row, int kind) {
                                            : of->result.error;
 }
 
-/* Rows come in the order of their price, so that of rows with equal figures the cheapest is chosen. */
+/* Rows are sorted by price. If several have the least figure, the first is chosen, because it is the cheapest. */
 choice choice_make(const trials *t, const table *made, const choice_request *w) {
     choice c;
     for (int i = 0; i < CHOICES; i++) {
@@ -90,11 +90,11 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
 /* --- counting --------------------------------------------------------------------------------------*/
 
 #define RUN_INSTRUCTIONS 1e9 /* most instructions of a counted run: an emulator takes ten seconds */
-/* Assumed price of an evaluation until a run with its number type is counted: low, so that such a run is chosen. */
+/* Assumed price of an evaluation if no run with its number type is counted. It is low, so that such a run is chosen. */
 #define UNTRIED 1e-3
 
-/* With contacts: predicts the longest step of each uncounted run as its evaluations times each[], the price of an
- * evaluation by number type. `last`: the counted row that updates each[], or NULL. */
+/* For contacts: predicts the longest step of each uncounted run from its evaluations. each[]: the price of an
+ * evaluation, by number type. If `last` is a counted row (not NULL), it updates each[]. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {
@@ -324,7 +324,7 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-/* Prints the limits that this row exceeds, raised to its figures. */
+/* For each limit that the row exceeds, prints one that the row keeps. */
 static void print_remedy(FILE *out, const trials *t, const table *made, const choice_request *w,
                          const choice_row *by) {
     char text[AMOUNT];

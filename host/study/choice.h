@@ -20,15 +20,15 @@ typedef struct choice_request {
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of the RAM with the stack; 0: no limit */
-    bool counts; /* chosen rows will be counted: of a prediction, only the lower bound is limited */
+    bool counts; /* chosen rows will be counted, so a predicted upper bound may exceed a limit */
     const char *prices; /* the source of the prices, in words */
 } choice_request;
 
-/* A row compared with the limits. load: the part of real time that steps take if all are as long as the longest. */
+/* A row compared with the limits. */
 typedef struct choice_row {
     int row;      /* index of the row in the table, or -1 */
-    double worst; /* cycles or instructions per simulated second, if all steps were the longest */
-    double load;  /* 0: unknown */
+    double worst; /* cycles or instructions of the longest step, per simulated second */
+    double load;  /* computing time of the longest step per simulated time; 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */
     unsigned unknown; /* bits: limits without a figure to compare */
@@ -37,7 +37,7 @@ typedef struct choice_row {
 typedef enum choice_kind {
     CHOICE_FASTEST,  /* the fewest cycles within all limits */
     CHOICE_SMALLEST, /* the least flash within all limits */
-    /* If no row keeps all limits, the candidates for raising one: */
+    /* Used if no row keeps all limits: */
     CHOICE_WEAKER, /* the least error within the other limits */
     CHOICE_DEARER, /* the fewest cycles within error, flash and RAM */
     CHOICE_LARGER, /* the least flash within error and load */

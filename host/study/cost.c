@@ -49,7 +49,7 @@ const cost_board *cost_board_named(const char *name) {
 /* Lists with more operations become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
 enum { REGISTERS = 16 };   /* number of state and stage values that FPU registers hold */
-enum { SUMS_CARRIED = 9 }; /* additions by compensated sums per real, in a step by a matrix */
+enum { SUMS_CARRIED = 9 }; /* additions to compensate one real, if the step is one matrix */
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
     c->run[class] += run;
@@ -73,15 +73,15 @@ static cost_class class_of(const op *o) {
 
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
-/* Executions of a list's operations per step, by depth_of(). In an inlined list, compilers evaluate an operation only
- * once if it is the same at every stage, or at stages with equal positions. */
+/* The number of times that a step evaluates an operation of this depth_of(). In an inlined list, compilers evaluate an
+ * operation only once for all stages at which it has the same value. */
 typedef struct times {
     double stages; /* of depth 2 */
     double places; /* of depth 1 */
     double once;   /* of depth 0 */
 } times;
 
-/* 0: operation i has the same value at all stages; 1: it depends on positions; 2: on rates. depth[]: those before i. */
+/* 0: operation i has the same value at all stages. 1: it depends on positions. 2: it depends on rates, or is a call. */
 static int depth_of(const op_list *t, int i, const int *depth) {
     const op *o = &t->ops[i];
     int operand[2];
@@ -96,7 +96,7 @@ static int depth_of(const op_list *t, int i, const int *depth) {
     return most;
 }
 
-/* `turned`: sine-cosine pairs are rotated; add_stages() counts them. */
+/* If `turned`, omits the sine-cosine pairs that are rotated, because add_stages() counts them. */
 static void add_list(cost_counts *c, const op_list *t, bool turned, times run, double code) {
     int *depth = t != NULL ? alloc(t->count, sizeof *depth) : NULL;
     for (int i = 0; t != NULL && i < t->count; i++) {

@@ -122,16 +122,16 @@ typedef struct cost_row {
     cost_quantity quantity;
     double within;  /* nine of ten counted steps are within this factor of the prediction */
     double longest; /* the longest step divided by the mean step; 1 for bytes */
-    double figure[COST_CLASSES]; /* of one operation; COST_UNSEEN: no counted step had one */
+    double figure[COST_CLASSES]; /* of one operation, or COST_UNSEEN */
 } cost_row;
 
-#define COST_UNSEEN (-1.0)
+#define COST_UNSEEN (-1.0) /* no counted step has an operation of this class */
 
 /* The counts for a quantity: executions for time, copies in the firmware for bytes. */
 const double *cost_counted(const cost_counts *c, cost_quantity quantity);
 
 /* === the price of a step ====================================================================== */
-/* least <= value <= most, in nine of ten cases if predicted. COST_RANGE: the value is 0. COST_NOT_KNOWN: all are 0. */
+/* Nine of ten predictions have the true value in least..most. COST_RANGE: `value` is 0. COST_NOT_KNOWN: all are 0. */
 typedef struct cost_figure {
     cost_basis basis;
     double value;
@@ -141,15 +141,15 @@ typedef struct cost_figure {
 
 typedef struct cost {
     const char *why;                /* reason for unknown figures, in words, or "" */
-    cost_figure instructions;       /* of a step, mean of a run */
-    cost_figure instructions_worst; /* of the longest step; with contacts far above the mean */
-    cost_figure cycles;             /* of a step, mean of a run */
+    cost_figure instructions;       /* mean over the steps of a run */
+    cost_figure instructions_worst; /* of the longest step; contacts raise it far above the mean */
+    cost_figure cycles;             /* mean over the steps of a run */
     cost_figure cycles_worst;
-    /* The smallest firmware around the scene, which steps and computes the outputs (boards/programs/size.c): */
+    /* Figures of a minimal firmware that steps the scene and computes its outputs (boards/programs/size.c): */
     cost_figure flash_bytes;
     cost_figure ram_bytes;   /* without the stack */
     cost_figure stack_bytes; /* deepest stack during a step */
-    cost_figure state_bytes; /* part of the RAM that the scene's memory takes: WH_MEMORY_BYTES */
+    cost_figure state_bytes; /* the scene's memory, WH_MEMORY_BYTES: a part of the RAM */
 } cost;
 
 /* For COST_FIXED the image must contain its step in fixed point. With contacts, the cost is unknown without a run. */
@@ -169,12 +169,12 @@ enum { COST_COLUMNS = 15 };
 /* Cuts a row at its commas outside quotes. Returns false unless it has this number of columns. */
 bool cost_cut(char *row, char **column, int columns);
 
-/* The number of columns in a row of counts, and indices of some. The last three are bytes of flash, RAM, stack. */
+/* The number of columns in a row of counts, and indices of five. The last three columns: bytes of flash, RAM, stack. */
 typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;
 extern const cost_layout cost_step_layout; /* of COST_HEADER */
-/* Cuts a row into column[at->columns], and raises smaller figures in `c` to its counts. False: no row of this board. */
+/* Cuts a row into column[at->columns]. The row's counts replace smaller figures in `c`. False: no row of this board. */
 bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c);
 
 #endif

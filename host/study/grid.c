@@ -229,7 +229,7 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
 static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
                       diags *errors, axis *made) {
     struct arena *arena = arena_new();
-    /* TO is read first: if both ends lack a unit, the hint adds it to TO, whose unit FROM then takes */
+    /* TO is read first: if both ends lack a unit, the hint must add one to TO, because FROM takes the unit of TO */
     const expr *to = read_end(of, r, r->to, arena, errors, made);
     const expr *from = to == NULL ? NULL : read_end(of, r, r->from, arena, errors, made);
     diags_flush(errors, stderr);
