@@ -31,7 +31,7 @@ typedef struct grid {
 
 #define GRID_POINTS_MAX UINT64_C(1000000000000)
 
-/* Adds "NAME=FROM..TO:COUNT[,log]"; a bare FROM has the unit of TO. False: wrong, reported on standard error. */
+/* Adds "NAME=FROM..TO:COUNT[,log]". If FROM has no unit, it has that of TO. False, with a message: text is wrong. */
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
 

@@ -191,7 +191,7 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* Replaces each noisy output in the expression by its noisy record. Inside other outputs, it stays without noise. */
+/* Replaces each noisy output in the expression by its noisy record, but not those that other outputs contain. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;
@@ -344,7 +344,7 @@ typedef struct meter {
     void *run;
     run_checks *verdict;
     gauge *gauges;  /* [measures] */
-    int *component; /* [measures] component of the state; -1: the output with this index */
+    int *component; /* [measures] index in the state; -1: measure i takes output[i] */
     double *output;
     bool series;            /* a measure takes a sample each step */
     bool series_of_outputs; /* a measure takes a sample of an output each step */
@@ -497,7 +497,7 @@ bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors
 
 /* === a point ================================================================================== */
 
-#define ENDS_ALIKE 1e-9 /* ends that differ by less than this part of the time count as equal */
+#define ENDS_ALIKE 1e-9 /* a run may miss until_s by at most this part of until_s */
 
 static bool has_balance(const sweep *s) { return !s->mechanism->is_system; }
 

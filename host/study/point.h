@@ -15,8 +15,8 @@
 /* The measures of a sweep's runs.
  *
  * A measure is an expression of the language over coordinates, rates, accelerations, inputs,
- * parameters, lets and outputs. It has its value at the end of the run, or a function of its series
- * (one value a step, from a given time on):
+ * parameters, lets and outputs. An expression alone gives its value at the end of the run. A function
+ * takes a sample of its argument x at each step, from a given time on:
  *   - max(x), min(x): largest and smallest sample.
  *   - amplitude(x): half the difference of max and min.
  *   - mean(x): over time, by the trapezoidal rule.
@@ -48,12 +48,12 @@ typedef struct gauge {
     size_t kept_room;
 } gauge;
 
-#define PERIOD_SAMPLES_MAX UINT64_C(100000000) /* of period(), which stores all samples */
+#define PERIOD_SAMPLES_MAX UINT64_C(100000000) /* limit for period(), which stores all samples */
 
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
-/* `epsilon`: relative round-off of a sample. NaN: no value, as for the period of a constant. After an overflow the
- * result is infinite or NaN, and a period infinite. */
+/* `epsilon`: relative round-off of a sample. Returns NaN if there is no value, such as the period of a constant.
+ * After an overflow, a period is infinite; any other result is infinite or NaN. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
@@ -63,7 +63,7 @@ typedef struct measure {
     const expr *of;
 } measure;
 
-/* The measure's column has the declared unit of this symbol, divided by s for each of m->of->primes. NULL: SI. */
+/* The measure's column has the declared unit of this symbol, divided by s^n if m->of has n primes. NULL: SI units. */
 const symbol *measure_symbol(const measure *m);
 
 typedef struct measures {
@@ -104,11 +104,11 @@ typedef struct sweep {
     const image *shared;
 } sweep;
 
-/* The number of columns after the swept values: the measures; for a mechanism with energies the energy residual
- * (host/check/energy_residual.h; empty if unknown); for a swept step the end of the run, `end_s`. */
+/* The number of columns after the swept values. There is one for each measure. If the mechanism has energies, there is
+ * the energy residual (host/check/energy_residual.h; empty if unknown). If the step is swept, there is `end_s`. */
 int sweep_columns(const sweep *s);
 
-/* False, reported, if a measure uses the end of the runs, and a swept step does not divide `until_s`. */
+/* Returns false, with a message, if a measure is taken at the end, and a swept step does not divide until_s. */
 bool sweep_ends_are_alike(const sweep *s, double until_s);
 
 /* May all points and their finer runs use this image's lists? Varied parameters and conserved momenta change lists. */
@@ -117,8 +117,8 @@ bool sweep_can_share(const grid *g, const image *im);
 /* The declared unit after a column's name, such as " [deg]"; "" for SI, or if `of` is NULL. The caller frees it. */
 char *sweep_unit(const symbol *of, int primes);
 
-/* sweep_header(): writes the CSV header, with its line's end. sweep_swept_value(): a swept value as in the rows.
- * sweep_swept_fields(): writes the swept values of one point, without a line's end. */
+/* sweep_header() writes the CSV header and its line end. sweep_swept_fields() writes the swept values of one point,
+ * without a line end. sweep_swept_value() returns text: the value `si` of one axis, as in a row. */
 void sweep_header(const sweep *s, FILE *out);
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);

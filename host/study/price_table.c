@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* Finer steps are not tried after PATIENCE successive errors above FALLS times the least error so far. */
+/* No shorter step is tried after PATIENCE trials in a row whose error exceeds FALLS times the least error before. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -84,14 +84,14 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
-        if (slow && setting_is_fixed(s)) { /* fixed point needs a run for its price, too */
+        if (slow && setting_is_fixed(s)) { /* in fixed point, even the price needs a run */
             c->end = own ? BROKEN_OFF : NOT_OWN;
             return;
         }
         row.cost = trial_cost(t, s, row.pace, &own);
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)));
         if (!own && setting_price_varies(s)) {
-            continue; /* fixed point and a matrix may not allow a step that long */
+            continue; /* fixed point or a matrix may refuse this step, but allow a shorter one */
         }
         if (!own || (row.price.basis == COST_NOT_KNOWN && !contacts)) {
             c->end = own ? UNPRICED : NOT_OWN;
@@ -385,7 +385,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* Marks rows of the front whose error times `factor` is at most the last marked row's error. Returns their number. */
+/* Marks the first row of the front, and each later one with at most 1/factor of the last marked row's error. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;
@@ -522,7 +522,7 @@ void table_print(FILE *out, const trials *t, const table *made, bool all) {
 
 /* --- for programs ------------------------------------------------------------------------------------*/
 
-/* A row goes into an object of `json`; without `json` to `csv`, as the header if `is_head`. */
+/* A row becomes keys of an object in `json`. If json is NULL, it becomes a line of `csv`: the names if is_head. */
 typedef struct row_sink {
     FILE *csv;
     json *json;
@@ -685,10 +685,10 @@ const char *measured_missing(const trials *t, const cost_board *board, char text
 enum { RUN_STEPS = 2, RUN_BOUND = 5, RUN_CYCLES_BOUND = 8, RUN_COLUMNS = 13 };
 static const cost_layout run_layout = {RUN_COLUMNS, 0, 3, 4, 6, 7};
 
-/* The larger of the bounds at two points; 0, unknown, if one of them is. */
+/* The larger of the bounds at two points. The result is 0 (unknown) if one of them is 0. */
 static double bound_of(double a, double b) { return a > 0.0 && b > 0.0 ? number_most(a, b) : 0.0; }
 
-/* Enters a row of count_run.sh, a whole run at one point. `first`: the first point. */
+/* Enters a row of count_run.sh into *run. The row has the counts of a whole run at one point. */
 static void enter_run(char *const *column, bool first, counted_run *run) {
     const double instructions = decimal_read(column[RUN_BOUND], NULL);
     const double cycles = decimal_read(column[RUN_CYCLES_BOUND], NULL);

@@ -23,7 +23,7 @@ typedef struct table_price {
     double least, most;
 } table_price;
 
-/* Scenes with contacts: the costs of all steps of whole runs, one at each point of the trials. */
+/* If the scene has contacts, a whole run is counted at each point of the trials. These are figures of all runs. */
 typedef struct counted_run {
     double steps; /* number of counted steps at all points together; 0: no whole run was counted */
     double instructions_bound; /* declared bound for a step (docs/dev/events.md); 0: unknown */
@@ -56,7 +56,7 @@ typedef struct table {
 typedef struct table_request {
     double operations;  /* limit on the operations of all trials */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
-    double error;     /* steps get finer until half this error; 0: until round-off stops the gain */
+    double error;       /* steps get shorter until the error is half of this; 0: while it falls */
     double rate_Hz;   /* rate of calls, each of which takes a whole number of steps; 0: any step */
     uint64_t periods; /* number of periods (1/rate_Hz) in a record's spacing; 1 without a rate */
     int workers;
@@ -65,10 +65,10 @@ typedef struct table_request {
 
 /* 1, 2, 5, 10, 20, 50, ... for i = 0, 1, 2, ... */
 uint64_t table_decade(int i);
-/* *pace: that of trial number `rung`, from 0 on. Without a rate, each trial's step is 2 to 2.5 times shorter than the
- * one before. With a rate, the trials have 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
+/* Sets *pace for trial number `rung`, from 0 on. Without a rate, a trial's step is 2 to 2.5 times shorter than that of
+ * the trial before. With a rate, the trials have 1, ..., 10, 12, 15, 20, ... steps a period. False: no such trial. */
 bool table_pace(const table_request *w, int rung, deviation_pace *pace);
-/* The number of steps in a period of the calls; 0 without a rate of calls. */
+/* The number of the row's steps in a period, 1/rate_Hz; 0 without a rate. */
 uint64_t table_substeps(const table_request *w, const table_row *row);
 
 /* Tries the settings in several worker processes. Each setting has its own share of the allowed operations, so the rows
@@ -88,7 +88,7 @@ const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 /* Describes the comparison and its reference, in lines that begin with two blanks. */
 void figure_reference(FILE *out, const trials *t);
 
-/* "cycles/s", ...: heads of a column of prices, by table_unit. */
+/* The heading of a column of prices in each table_unit, such as "cycles/s". */
 extern const char *const table_heads[];
 
 /* Prints how many settings were tried, how many have no price, and for how many --effort was too small. */
@@ -118,13 +118,13 @@ typedef enum measured_end {
     MEASURED_MISSING /* a tool is missing */
 } measured_end;
 
-/* Returns why steps cannot be counted on a board, perhaps in `text`. NULL: they can; common files are then compiled. */
+/* Returns why steps cannot be counted on this board, perhaps in `text`; or compiles common files, and returns NULL. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
-/* Counts steps with the row's setting, for all rows that have it. With contacts, counts the row's whole run. Takes
- * seconds. Removes rows that cannot be built, linked or run, and sorts the table again. */
+/* Counts the cost of the row's step, or with contacts of its whole run. Takes seconds. Enters the cost in all rows to
+ * which it applies, or removes them if the code cannot be built, linked or run. Sorts the table again. */
 measured_end measured_count(const trials *t, table *made, int row);
-/* Counts until all rows of the front are counted. Does nothing with contacts. `shows`: progress on standard error. */
+/* Counts until no row of the front is uncounted. Does nothing with contacts. `shows`: progress on standard error. */
 measured_end measured_front(const trials *t, table *made, bool shows);
 
 #endif

@@ -71,9 +71,9 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 
 /* === the reference ============================================================================ */
 
-/* A reference without requested steps has this METHOD. Its step is at first FINER times shorter than the scene's. It
- * is halved until the last two runs agree within ENOUGH of each column's largest value, or until it is FINEST times
- * shorter. FINEST becomes LAST while each halving at least doubles a trusted time that is too short. */
+/* If no steps are requested, a reference has this METHOD. Its first step is FINER times shorter than the scene's. It is
+ * halved until the last two runs agree within ENOUGH of each column's largest value, or it is FINEST times shorter than
+ * the scene's. If the trusted time is too short, but the last halving doubled it, the limit is LAST. */
 #define METHOD WH_NYSTROEM5
 #define FINER 4.0
 #define FINEST 16.0
@@ -84,12 +84,12 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 #define LIMIT 1e-9
 /* A column is known if the two runs agree until its magnitude has reached this part of the column's largest value. */
 #define KNOWN_BY 1e-6
-/* An unknown column is only round-off if it is this many times larger in float, whose round-off is 2^29 times that of
- * double. A motion has nearly the same magnitude in both. */
+/* An unknown column is only round-off if its largest value is this many times larger in float than in double. Round-off
+ * is 2^29 times larger in float, but a motion has nearly the same magnitude in both. */
 #define ROUGHER 0x1p15
-/* Round-off that both runs share, as a part of the largest value: that of constants and of the start. */
+/* Both runs have the same round-off of constants and of the start: this part of a column's largest value. */
 #define SHARED (16.0 * DBL_EPSILON)
-#define EVENTS 3.0 /* factor on a step's evaluations for the search for events, about */
+#define EVENTS 3.0 /* with contacts, a step has about this many times as many evaluations */
 
 /* --- two runs and their agreement ------------------------------------------------------------------*/
 
@@ -175,7 +175,7 @@ static void weigh(reference *r, const reference_request *w, uint64_t steps, cons
     }
 }
 
-/* Decides which columns count, and up to which record the two runs agree. `steps`: those of `other`. */
+/* Decides which columns count, and up to which record the two runs agree. `other` has `steps` steps a record. */
 static void judge(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   int reached) {
     computed rough = {NULL, 0};
@@ -208,7 +208,7 @@ static bool moves(const reference *r) {
 
 /* --- the steps ---------------------------------------------------------------------------------------*/
 
-/* An even number of steps in a record's spacing, `finer` times shorter than the scene's; fewer by w->operations. */
+/* The even number of steps in a record's spacing: `finer` times the scene's number, if w->operations allows so many. */
 static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =
@@ -269,7 +269,7 @@ reference *reference_new(const reference_request *w) {
         }
         other = best;
     }
-    /* the difference of two runs becomes the error of the finer run */
+    /* the finer run's error is 1/(2^order - 1) of the difference of the two runs */
     for (int k = 1; k < r->columns && fixed; k++) {
         r->column[k].off /= number_scaled(1.0, w->by.order) - 1.0;
     }
