@@ -1,8 +1,8 @@
-/* plant.h: a scene as a controller's hardware: the scene runs in double, with sensors and actuators around it. Time is
- * in ticks of the controller's timer since the plant's start; the scene has its own steps. An edge is located on the
- * cubic through values and rates at both ends of a step, if the ends are on different sides of the level. A quantity
- * that crosses the level and returns within a step gives no edge: the cubic cannot distinguish this from an impact. A
- * sample is taken at the first step end at or after its instant; outputs, too, change at ends of steps. */
+/* plant.h: a scene as a controller's hardware. The scene runs in double, with sensors and actuators around it. Time is
+ * in ticks of the controller's timer since the plant's start. A quantity gives an edge if it is on different sides of
+ * the level at the two ends of a step. The edge's time comes from the cubic through values and rates at these ends. If
+ * the quantity crosses the level and returns within a step, there is no edge: the cubic cannot distinguish this from an
+ * impact. A sample is taken at the first step end at or after its instant. Outputs change only at ends of steps. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 
@@ -16,9 +16,9 @@ enum { BOUND_NAME = 80 };
 
 typedef struct bound {
     wh_signal signal;         /* its texts are in the hello */
-    char renamed[BOUND_NAME]; /* the signal's name in the scene; "": the same */
+    char renamed[BOUND_NAME]; /* the signal's name in the scene; "": the same as in the firmware */
     unsigned channel;
-    int index;      /* of the input, output or state component (angles first) */
+    int index;      /* index of the scene's input, output or state component (angles come first) */
     bool of_output; /* reads an output of the scene, not a component */
     int rate;       /* component of the rate, or -1 */
     bool turns;     /* an angle: the reading repeats every turn */
@@ -32,7 +32,7 @@ typedef struct binding {
 unsigned hello_channels(const wh_hello *hello, wh_signal_kind kind); /* the number of signals */
 /* Returns the signal of a channel, or NULL. */
 const wh_signal *hello_signal(const wh_hello *hello, wh_signal_kind kind, unsigned channel);
-/* The sample's count for the value, limited to the signal's range, and its status. */
+/* Returns the value in counts, limited to the signal's range. *status: WH_SAMPLE_GOOD or WH_SAMPLE_SATURATED. */
 int32_t hello_count(const wh_signal *s, double value, uint8_t *status);
 
 /* The index of the input, or -1. */
@@ -41,7 +41,7 @@ int bind_input(const image *im, const char *name);
 /* Binds an output, coordinate or rate: sets index, of_output, rate and turns. Returns its unit, or NULL. */
 const char *bind_read(bound *b, const image *im, const char *name);
 
-/* `renames`: words NAME=OTHER between commas, which bind the firmware's NAME to the scene's OTHER. False: reported. */
+/* `renames`: NAME=OTHER,... binds the firmware's NAME to the scene's OTHER. Returns false after an error (reported). */
 bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames);
 
 /* === records ================================================================================= */
@@ -54,8 +54,8 @@ typedef struct recorded {
     uint64_t every; /* steps between rows */
 } recorded;
 
-/* Records a row every every_s seconds. every_s < 0: every millisecond, or each step if a millisecond is no whole
- * number of steps. `name` NULL: nothing. False: reported; every_s is no multiple of the step, or the file fails. */
+/* Records a row every every_s seconds, which must be a multiple of the step. If every_s < 0: every millisecond, or each
+ * step if a millisecond is no multiple of it. If `name` is NULL: nothing. Returns false after an error (reported). */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
 /* Returns false (reported) if the file is incomplete. */
 bool recorded_close(recorded *r);
@@ -86,14 +86,14 @@ typedef struct plant_queue {
 
 /* Resets of the controller's processor, during which the plant's inputs are 0. */
 typedef struct plant_resets {
-    double at_ticks;       /* time of the next reset, which waits for a step's end */
-    double takes_ticks;    /* length of the next reset */
-    bool by_watchdog;      /* a starved watchdog resets the processor; false: cuts the outputs */
+    double at_ticks;    /* the next reset begins at the first step end at or after this time */
+    double takes_ticks; /* length of the next reset */
+    bool by_watchdog;   /* the watchdog resets the processor (true) or cuts the outputs (false) */
     double watchdog_ticks; /* length of the watchdog's reset */
     bool now;              /* the processor is reset: the caller must call plant_restart() */
     bool starved;          /* the watchdog caused the reset */
     unsigned count;
-    double last_ticks; /* of the last reset */
+    double last_ticks; /* time of the last reset */
 } plant_resets;
 
 typedef struct plant {
@@ -127,7 +127,7 @@ typedef struct plant {
     uint64_t edges_made;
     uint64_t edges_seen; /* delivered to the controller */
     uint64_t samples_seen;
-    uint64_t lost; /* readings beyond a message's space */
+    uint64_t lost; /* readings that were dropped because a message was full */
 } plant;
 
 /* Reads --place: a number for each edge, separated by commas. Returns false after an error (reported). */
@@ -138,9 +138,8 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
                  const plant_request *request);
 void plant_stop(plant *p);
 
-/* Plant time in ticks, and as shown by the controller's timer. */
-double plant_now(const plant *p);
-uint32_t plant_ticks(const plant *p);
+double plant_now(const plant *p);     /* plant time in ticks */
+uint32_t plant_ticks(const plant *p); /* the present value of the controller's timer */
 /* Has the plant reached this time, up to round-off? */
 bool plant_has_reached(const plant *p, double ticks);
 

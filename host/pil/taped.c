@@ -43,7 +43,7 @@ typedef struct taped_turn {
     wh_orders orders;
 } taped_turn;
 
-/* Gives up after the bytes of the longest frame, so that an endless device is refused. */
+/* Gives up if no frame ends within the bytes of the longest frame, because the file may be an endless device. */
 static bool read_frame(taped *t, wh_frame *frame) {
     for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
         const int byte = getc(t->file);
@@ -185,11 +185,11 @@ static bool taped_next(taped *t, taped_turn *turn) {
 typedef struct rows {
     const taped *tape;
     FILE *out;
-    int decimals; /* decimals of a time, which resolve a tick */
+    int decimals; /* decimal places of a printed time: enough to resolve a tick */
     uint32_t ticks;
     uint64_t heard;              /* the present message's ticks since plant time 0 */
     bool cut;                    /* a row has reported the cut */
-    bool has_rows;               /* value[] has the last printed values */
+    bool has_rows;               /* value[] is valid: it has the last printed values */
     float value[WH_SIGNALS_MAX]; /* by channel, notes after outputs */
 } rows;
 
@@ -202,7 +202,7 @@ static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
             (double)heard / per_s, kind);
 }
 
-/* Texts on a tape are the firmware's: characters that would break a row become '_'. */
+/* Prints a text of the firmware. A character that would break the row becomes '_'. */
 static void print_word(FILE *out, const char *word) {
     for (; *word != '\0'; word++) {
         const bool breaks = (unsigned char)*word < 0x20 || strchr(",\"\x7f", *word) != NULL;

@@ -53,8 +53,8 @@ static void read_run(const going *g) {
     }
 }
 
-#define LITTLE 1e-3 /* least range, relative to a state's size or to a range of its unit */
-#define STILL 1e-9  /* SI; replaces a range of 0, because a tube always has a width */
+#define LITTLE 1e-3 /* least ratio of a state's range to its size and to ranges in the same unit */
+#define STILL 1e-9  /* SI; replaces a range of 0: no tube is narrow enough to prove an error of 0 */
 
 static const image_unit *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
@@ -142,7 +142,8 @@ static void look_now(going *g) {
     }
 }
 
-/* Compares the records within the open step of length h_s. Returns their number; *last_s: time of the last one. */
+/* Compares the run's records within the tube's open step, whose length is h_s. Returns the number of records.
+ * *last_s: time from the open step's start to the last record. */
 static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
@@ -263,7 +264,7 @@ enum { FIGURE = 40 };
 /* Rounds up to this number of decimal places, so that a statement proved for x is true for the printed number. */
 static const char *not_less(double x, int places, char text[FIGURE]) {
     const char *end;
-    /* two doubles above x, because the conversion of its unit rounds, too */
+    /* two doubles above x, because x was rounded in the conversion to its unit */
     double shown = enclosure_above(enclosure_above(x));
     snprintf(text, FIGURE, "%.*e", places, x);
     while (x > 0.0 && decimal_read(text, &end) < x) {

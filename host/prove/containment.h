@@ -17,8 +17,8 @@ typedef struct containment_request {
     double tolerance;
     const double *within; /* [states] allowed errors, SI; 0: tolerance times range */
     double products_most; /* limit on products of enclosures; 0: none */
-    /* called at the start and at each step's end that the tube reaches, with exact[states], which encloses the exact
-     * motion, and the run, SI; may be NULL */
+    /* Called at the start and at each step's end that the tube reaches. exact[states] encloses the exact motion;
+     * run[states] has the run's values. Both are in SI. `see` may be NULL. */
     void (*see)(void *context, uint64_t step, const enclosure *exact, const double *run);
     void *context;
     void (*progress)(double share); /* may be NULL */
@@ -33,7 +33,7 @@ typedef enum containment_verdict {
 } containment_verdict;
 
 typedef enum containment_end {
-    CONTAINMENT_AT_END,   /* the run is compared to its end, or no state is open */
+    CONTAINMENT_AT_END,   /* the whole run is compared, or every state is decided */
     CONTAINMENT_RUN_ENDS, /* the run failed */
     CONTAINMENT_NO_STEP,  /* the tube has no further step */
     CONTAINMENT_SPENT,    /* the limit on products was reached */
@@ -45,9 +45,9 @@ typedef struct containment_state {
     containment_verdict verdict;
     bool open;
     bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
-    double range; /* range in the run, at least 1e-3 of the largest value's size */
-    /* allowed error: the requested one, or the tolerance times the largest of the state's range and a thousandth of the
-     * ranges in the same unit */
+    double range; /* greatest minus least value in the run, at least 1e-3 of the greatest size */
+    /* allowed error: the requested one, or the tolerance times the state's range. If 1e-3 of the range of another state
+     * in the same unit is larger, it replaces the state's range. */
     double within;
     double until_s;
     double off;    /* upper bound on the state's error until until_s */
@@ -60,9 +60,9 @@ typedef struct containment_found {
     wh_status status;   /* status of the run's last step */
     uint64_t run_steps; /* completed steps of the run */
     uint64_t flowpipe_steps;
-    double tube_s; /* the tube's last time */
+    double tube_s; /* time of the last record that was compared with the tube */
     containment_end end;
-    bool ranged; /* the run is complete, so the tolerances are known */
+    bool ranged; /* the first run was not interrupted, so the tolerances are known */
 } containment_found;
 
 containment_found containment_run(const containment_request *w);

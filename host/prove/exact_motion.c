@@ -13,9 +13,9 @@ typedef struct making {
     const instance *instance;
     int count; /* number of unknowns */
     int states;
-    int *matrix; /* [count * count] matrix M of M x = f */
-    int *force;  /* [count] f */
-    int *solved; /* [count] nodes of x, by unknown */
+    int *matrix; /* [count * count] nodes of the matrix M in M x = f */
+    int *force;  /* [count] nodes of f */
+    int *solved; /* [count] nodes of x: the highest derivative of each unknown */
     diags *errors;
 } making;
 
@@ -107,7 +107,7 @@ static bool lagrange(making *k) {
     return true;
 }
 
-/* Builds left - right = 0. In host/derive's normal form, left - right is linear in the highest derivatives. */
+/* Builds M and f from a system's equations left = right. left - right must be linear in the highest derivatives. */
 static bool given_outright(making *k) {
     graph *g = k->graph;
     const mechanism *m = k->instance->mechanism;
@@ -139,8 +139,8 @@ static bool given_outright(making *k) {
     return true;
 }
 
-/* Finds a pivot: preferably a number, otherwise any node that is not zero. The diagonal of a mass matrix, which is
- * positive definite, has no zero pivots, and suffices. */
+/* Finds a pivot: a number if there is one, otherwise any node that is not zero. A mass matrix is searched only
+ * on its diagonal. No pivot there is zero, because the matrix is positive definite. */
 static bool find_pivot(const making *k, const bool *row_done, const bool *column_done, int *row,
                        int *column) {
     const bool diagonal = !k->instance->mechanism->is_system;
@@ -159,7 +159,7 @@ static bool find_pivot(const making *k, const bool *row_done, const bool *column
     return best > 0;
 }
 
-/* Subtracts a multiple of row p from row i, so that its column c becomes zero. */
+/* Subtracts a multiple of row p from row i, so that row i's entry in column c becomes zero. */
 static void take_row(making *k, int i, int p, int c) {
     graph *g = k->graph;
     const int n = k->count;
@@ -196,7 +196,7 @@ static bool solve(making *k) {
             }
         }
     }
-    /* a row's entries at earlier pivots are zero; the unknowns of later pivots are known */
+    /* a row's entries in the columns of earlier pivots are zero; the unknowns of later pivots are known */
     for (int s = n - 1; s >= 0 && good; s--) {
         const int *entry = &k->matrix[row[s] * n];
         int right = k->force[row[s]];
@@ -282,7 +282,7 @@ static bool read_starts(making *k, exact_motion *m) {
     return true;
 }
 
-/* Reports a number without an enclosure, which is NaN (1/0, the root of -1), and returns false. */
+/* Returns false (reported) if the interval of a number is not finite, as for 1/0 or the root of -1. */
 static bool is_defined(const exact_motion *m, const mechanism *of, diags *errors) {
     bool good = true;
     for (int i = 0; i < m->nodes; i++) {
