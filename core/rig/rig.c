@@ -389,6 +389,17 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
+/* With the motor off: clears data that are invalid when the rotor is at rest. */
+static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+    wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
+    if (rig->guard.quiet) {
+        rig->run.off_radps = WH_R(0.0);
+        if (rig->pulses.speed.running) { /* old pulses look recent after the timer wraps */
+            wh_pulses_forget(&rig->pulses);
+        }
+    }
+}
+
 static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     wh_guard *guard = &rig->guard;
     const bool drives = wh_run_drives(&rig->run);
@@ -396,13 +407,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_WATCHDOG);
     }
     if (!drives) {
-        wh_guard_quiet(&config->guard, guard, rig->pulses_ever, inputs->now_ticks);
-        if (guard->quiet) {
-            rig->run.off_radps = WH_R(0.0);
-            if (rig->pulses.speed.running) { /* old pulses look recent after the timer wraps */
-                wh_pulses_forget(&rig->pulses);
-            }
-        }
+        rest(config, rig, inputs->now_ticks);
     }
     /* With the motor off, a rotor of known speed cannot become faster. */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
