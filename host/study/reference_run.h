@@ -1,6 +1,7 @@
-/* reference_run.h: the reference of priced runs: the motion at evenly spaced records, in double with compensated sums
- * and short steps. A second run has twice the step. The difference of the two runs estimates the reference's error, and
- * limits the time until which it is trusted. Both compute operations, sines and events as the compared runs do. */
+/* reference_run.h: an accurate motion, with which priced runs are compared at evenly spaced records. It is computed in
+ * double with compensated sums and short steps. A second run has twice the step. The difference of the two estimates
+ * the reference's error, and the reference is trusted until it exceeds a limit. Both share operations, sines and
+ * event search, so their difference does not show errors of these. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -8,16 +9,16 @@
 #include "host/io/records.h"
 
 /* === the reference ============================================================================ */
-/* The method and steps of a reference. */
+/* If `steps` is 0, Whirl uses nystroem5, halves its steps until two runs agree, and ignores the other fields. */
 typedef struct reference_steps {
-    uint64_t steps; /* even number in a record's spacing; 0: nystroem5, and steps by agreement */
+    uint64_t steps; /* number of steps from one record to the next; even */
     wh_method method;
     int order;    /* order of the method's error */
-    double limit; /* trusted until the two runs differ by this part of the largest value */
+    double limit; /* trusted while the runs differ by at most this part of a column's `largest` */
 } reference_steps;
 
 typedef struct reference_request {
-    const image *image;  /* the scene; its end is not used */
+    const image *image;  /* the scene; its runs end at the last record, not at the scene's end */
     whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */
     double operations;   /* limit on the operations of the run with the shortest steps */
@@ -25,9 +26,9 @@ typedef struct reference_request {
 } reference_request;
 
 typedef struct reference_column {
-    bool counts;    /* its error counts: a coordinate or rate that is more than round-off */
+    bool counts;    /* it is a coordinate or rate, and its values are more than round-off */
     double largest; /* largest magnitude in the trusted records */
-    double off;     /* largest difference of the two runs; if by.steps > 0, the finer run's error */
+    double off;     /* largest difference of the two runs; if steps > 0, divided by 2^order - 1 */
 } reference_column;
 
 typedef struct reference {
@@ -38,7 +39,7 @@ typedef struct reference {
     int records;              /* number of trusted records after the start */
     double *row;              /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
-    double limit;             /* trusted until columns differ by this part of their largest value */
+    double limit;             /* the limit that was used; see reference_steps */
     char *how;                /* the two runs, in words */
     char *why;                /* why trust ends early, or why there is no reference; or NULL */
     bool still;               /* no quantity moves, so there is no reference */
@@ -53,24 +54,24 @@ void reference_cut(reference *r, int until);
 double reference_agreement(const reference *r, int column);
 void reference_free(reference *r); /* NULL is fine */
 
-/* The column of a name, "X", "X'" or an output's, or -1. *noisy: the output has noise, so it has no reference. */
+/* The column of `name`, such as "theta'", or -1. *noisy: it is an output with noise, which has no reference. */
 int reference_find(const reference *r, const char *name, bool *noisy);
 
 /* === the deviation of a run =================================================================== */
 
-/* The length of a run's step: `steps` steps take `records` spacings. Only records at ends of steps are compared. */
+/* A run makes `steps` steps while the reference advances by `records` records. Then the two are compared. */
 typedef struct deviation_pace {
     uint64_t steps;
     uint64_t records;
 } deviation_pace;
 
 typedef struct deviation_of_what {
-    int column;     /* compared in its unit; -1: all that count, relative to their largest values */
+    int column;     /* compared in its unit; -1: all columns that count, relative to `largest` */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 
 typedef struct deviation {
-    bool usable;  /* the run reached its end, with errors up to give_up, without saturation */
+    bool usable;  /* the run reached its end without saturation, and no error exceeded give_up */
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with the largest error */
     double known; /* the reference's error in that column, in the unit of `error` */
@@ -78,7 +79,7 @@ typedef struct deviation {
     double evaluations_most; /* most evaluations in one step */
 } deviation;
 
-/* `im`: the reference's scene, with a step of this pace. */
+/* `im`: the reference's scene, with the step that `pace` describes. */
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
                             deviation_pace pace, deviation_of_what what);
 

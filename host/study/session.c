@@ -91,7 +91,7 @@ static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s)
 
 /* --- the rows that are there -------------------------------------------------------------------*/
 
-/* Has the line the row's swept fields, followed by s->measures numbers or empty fields? */
+/* Does the line have the row's swept fields, and then s->measures fields that are numbers or empty? */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,
                    bool *failed) {
     char *swept = NULL;
@@ -156,7 +156,7 @@ static int go_on(resumable_csv *sh, const resumable_csv_settings *s, off_t size)
     if (code != EXIT_DONE) {
         return code;
     }
-    /* the file must never be newer than its fingerprint */
+    /* Old rows go first: if the program is killed, they must not stand beside the new fingerprint. */
     if (whole == 0 && ftruncate(fileno(sh->out), 0) != 0) {
         return cannot_write(s->path);
     }
@@ -259,7 +259,7 @@ bool resumable_csv_close(resumable_csv *s) {
     return good && closed;
 }
 
-/* === a sweep from its first missing row to its last =========================================== */
+/* === columns and points as JSON =============================================================== */
 
 /* Writes a column's name and unit: the declared unit of `of`, or else the SI unit `si`. */
 static void put_column(json *j, const char *name, const symbol *of, int primes, const char *si) {
@@ -434,7 +434,7 @@ typedef struct sitting {
     bool shows;     /* progress on standard error */
     double start_s; /* of this session */
     double shown_s; /* of the last drawn progress line; 0: no line is drawn */
-    uint64_t first; /* point of the sheet's first row */
+    uint64_t first; /* index of the point in row 0 of `sheet` */
     uint64_t rows;  /* of the whole sheet */
     uint64_t failed;
     int described;                  /* number of failures that were described */
@@ -449,7 +449,7 @@ typedef struct sitting {
 
 enum { DESCRIBED_MAX = 20 };
 
-/* Runs a point in a worker. If it does not fail, `reason` gets its notes. */
+/* Runs a point in a worker process. `reason` gets the error if the point fails, or else the bits of its notes. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const sitting *s = context;
     point_notes notes;

@@ -1,4 +1,4 @@
-/* session.h: one `whirl sweep` from its first missing row to its last. */
+/* session.h: one call of `whirl sweep`, which computes the rows that its CSV file still lacks. */
 #ifndef STUDY_SESSION_H
 #define STUDY_SESSION_H
 
@@ -31,20 +31,20 @@ typedef struct resumable_csv_settings {
     const char *fingerprint; /* lines of "name: value" */
     const char *header;      /* header with its line's end, or "" */
     uint64_t rows;           /* number of rows of the complete file, without the header */
-    int measures;            /* fields after the swept ones; the first is empty if a point failed */
+    int measures;            /* number of fields after the swept ones; empty if the point failed */
     /* The swept fields of row `row`, as in the file. */
     void (*swept)(const void *context, uint64_t row, FILE *out);
     const void *context;
     bool fresh; /* start again, even if the file has rows */
 } resumable_csv_settings;
 
-/* Opens and checks the file; writes a missing header. Returns an exit status: 0; or, reported on standard error, 1 the
- * file could not be written, 2 it belongs to another sweep, is in use, or cannot be opened. */
+/* Opens and checks the file, and writes a missing header. Returns an exit status, and reports an error. 1: the file
+ * could not be written. 2: it belongs to another sweep, is in use, or cannot be opened. */
 int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s);
 /* Returns false if something was not written (reported). */
 bool resumable_csv_close(resumable_csv *sh);
 
-/* === a sweep from its first missing row to its last =========================================== */
+/* === the axes of a sweep ====================================================================== */
 /* The SI unit of an axis, in the declared spelling if the declared unit is SI. The caller frees it. */
 char *sweep_axis_unit(const axis *a);
 /* Writes name and unit of each axis as JSON (docs/warnings.md has the schema). */
@@ -57,14 +57,13 @@ typedef struct shard {
     uint64_t of;     /* number of shards */
 } shard;
 
-/* `model_text`: the .whirl file; `base`, `im`: the instance without the swept values, and its image. Free the
- * result. */
+/* `base`: the instance before the sweep changes its values. `im`: its image. The caller frees the result. */
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);
 
 /* === running the points ======================================================================= */
 
-/* Draws a progress line over the last one: share, rate, remaining time. `from`: points done `elapsed_s` ago. */
+/* Draws the progress line again. `done` of `end` points are done; `elapsed_s` seconds ago, `from` were done. */
 void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s);
 
 typedef struct session_settings {

@@ -43,8 +43,8 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* The runs of a row of the map. If the row varies the step, errors are compared with ranges of the first run, which has
- * the shortest step: the range of a coarse run would come from few samples, or from a divergence. */
+/* The runs of a row of the map. If the step varies along the row, all runs use the ranges of the first run, which has
+ * the shortest step. A run with longer steps may have few samples or diverge, so its own ranges are not used. */
 typedef struct row_runs {
     const map_request *request;
     stability_map *map;
@@ -279,7 +279,7 @@ void map_json(FILE *out, const stability_map *m, const image *of, const map_requ
 
 enum { HEIGHT = 620 };
 
-/* The value half a cell further along the axis, down or up. */
+/* The upper (`up`) or lower edge of the cell around `value`. */
 static double edge(const axis *a, double value, bool up) {
     const double cells = a->count > 1 ? (double)(a->count - 1) : 1.0;
     if (a->is_log) {
@@ -305,7 +305,7 @@ static void set_axis(FILE *to, const axis *a, char letter) {
     fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
 }
 
-/* Writes x, y and the edges of each block of adjacent cells of a row with this verdict. */
+/* Joins neighboring cells of a row with this verdict into blocks. Writes x, y and the four edges of each block. */
 static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     const axis *along = along_of(m);
     const axis *rows = rows_of(m);

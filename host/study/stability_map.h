@@ -1,16 +1,15 @@
-/* stability_map.h: the verdict on a scene's run for each pair of two swept values: bounded, energy conserved, accurate
- * to a tolerance.
+/* stability_map.h: a map over two swept values. It shows for which of their pairs a scene's run is bounded, conserves
+ * energy, and is accurate to a tolerance.
  *
  * A finer run (host/check/step_doubling.h) shows until when a run is accurate. The energy residual
- * (host/check/energy_residual.h) shows whether the run conserves energy. A map's rows are the values of the axis other
- * than the step. */
+ * (host/check/energy_residual.h) shows whether the run conserves energy. A swept step varies along the rows. */
 #ifndef STUDY_STABILITY_MAP_H
 #define STUDY_STABILITY_MAP_H
 
 #include "host/study/point.h"
 
-/* A run is out of bounds if the error of an unknown's highest derivative exceeds this many times its range. If the row
- * varies the step, its finest run gives the range. A growing error exceeds this bound long before overflow. */
+/* A run is out of bounds if the error of an unknown's highest derivative exceeds this many times that derivative's
+ * range. A growing error exceeds this bound long before overflow. */
 #define MAP_BOUND 100.0
 
 /* The verdicts, from good to bad. X(id, mark, word, words) */
@@ -42,7 +41,7 @@ typedef struct map_cell {
 } map_cell;
 
 typedef struct map_request {
-    sweep of; /* the sweep with two axes, in float or double */
+    sweep of; /* a sweep with two axes */
     double tolerance;
     void (*progress)(double runs, void *context); /* `runs`: completed runs; may be NULL */
     void *context;
@@ -52,22 +51,22 @@ typedef struct stability_map {
     const grid *grid;
     map_cell *cell; /* [grid->points] */
     uint64_t done;  /* number of completed cells; fewer than points after an interrupt */
-    int along;      /* the step's axis, or 1 if no axis is the step */
+    int along;      /* index of the axis along a row: that of the step, or 1 if there is none */
     bool by_step;   /* one axis is the step */
 } stability_map;
 
-/* Runs the map row by row, each from its shortest step on. */
+/* Runs the map row by row. If the step is swept, each row begins with the shortest step. */
 stability_map map_make(const map_request *w);
 void map_free(stability_map *m);
 
 uint64_t map_count(const stability_map *m, map_verdict verdict);
-/* The grid's point for value `at` of the axis m->along, in rising order, and value `row` of the other axis. */
+/* The grid's index of point `at` in row `row`. The values along a row rise. */
 uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
-/* Value `at` of the axis m->along, and value `row` of the other axis, SI. */
+/* map_along() returns the value at index `at` along a row, and map_row() the value of a row, in SI units. */
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 
-/* Prints a line for each row, with a mark for each value along it, in rising order. `words` describe the run. */
+/* Prints a line for each row, with one mark for each point of the row. `words` describe the run. */
 void map_print(FILE *out, const stability_map *m, const char *words);
 /* Writes a row for each completed pair: both values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);

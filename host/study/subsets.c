@@ -150,7 +150,7 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Do the terms missing in `less` change a slope of the full run beyond round-off? Component orders may differ. */
+/* Do the terms that `less` lacks change a slope of the full run by more than round-off? */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;
@@ -237,7 +237,7 @@ static void lane_stop(lane *l, const char *why) {
     l->run = NULL;
 }
 
-/* Steps the full run and the subsets from list[first] on. If first > 1, a subset stops if its error exceeds a limit. */
+/* Runs list[0] beside the subsets from list[first] on. If `first` > 1, it stops each subset that exceeds a limit. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;

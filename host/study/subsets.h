@@ -12,8 +12,8 @@
 /* The most effects of a scene. With up to SUBSETS_ALL_MOST acting effects, all of their subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
-/* Figures of a price, in float: cycles (or instructions) of a step, most evaluations in a step, bytes of flash, bytes
- * of RAM. NAN: unknown. */
+/* The costs of a scene in float: cycles of a step (instructions if the board's cycles are a range), the largest number
+ * of evaluations in a step, flash and RAM in bytes. NAN: unknown. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 
 /* The scene without the effects of the bits in `out`. */
@@ -23,7 +23,7 @@ typedef struct subset {
     bool same;          /* its records have the same bits as those of the full run */
     int contacts;
     double *moved; /* [columns] largest difference from the full run, in the column's unit */
-    double figure[SUBSET_FIGURES]; /* with contacts only SUBSET_WORST has a meaning */
+    double figure[SUBSET_FIGURES]; /* if contacts > 0, only SUBSET_WORST is valid */
 } subset;
 
 typedef struct subsets {
@@ -34,11 +34,11 @@ typedef struct subsets {
     image *image;     /* the full scene */
     records *columns; /* columns of the runs' records */
     int effects;
-    int effect[SUBSETS_EFFECTS_MAX]; /* numbers of the mechanism's effects */
+    int effect[SUBSETS_EFFECTS_MAX]; /* the scene's effects, as indices in of->effects */
     bool acted[SUBSETS_EFFECTS_MAX]; /* the effect acted in the full run */
     double *range;                   /* [columns] range in the full run, in the column's unit */
     double *limit;                   /* [columns] allowed error; INFINITY: any */
-    subset **list; /* [0] the full scene, [k + 1] without effect k, then without several */
+    subset **list; /* [0]: the full scene; [k + 1]: without effect[k]; others: without several */
     int count;
 } subsets;
 
@@ -48,8 +48,8 @@ void subsets_close(subsets *s);
 /* Runs the full scene and those without one effect. False, reported: the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Runs scenes without some of the acting effects, in all combinations; *greedy: too many, so effects are left out one
- * after another. Returns the subset that keeps the limits with the fewest effects, and among these the cheapest. */
+/* Runs the scene without each combination of acting effects. If there are too many, sets *greedy and leaves out one
+ * effect after another. Returns the subset within the limits that has the fewest effects. Of several: the cheapest. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif
