@@ -48,8 +48,8 @@ void subsets_close(subsets *s);
 /* Runs the full scene and those without one effect. False, reported: the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Runs the scene without each combination of acting effects. If there are too many, sets *greedy and leaves out one
- * effect after another. Returns the subset within the limits that has the fewest effects. Of several: the cheapest. */
+/* Runs the scene without each combination of acting effects. If there are too many, sets *greedy and leaves out one by
+ * one. Returns the subset within the limits that has the fewest effects. If there are several, returns the cheapest. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif
