@@ -35,16 +35,16 @@ void board_wait_until(uint32_t ticks);
  * prints the reason and returns false. */
 bool board_converse(void);
 
-/* The processor's own cycle counter, wrapping at 2^32. board_cycles_start() switches it on and returns false if there
- * is none: only a real Cortex-M3, M4, M7 or M33 has one (DWT's CYCCNT). board_cycles() is then 0. */
+/* The cycle counter (DWT's CYCCNT) of a real Cortex-M3, M4, M7 or M33. It wraps at 2^32. board_cycles_start() switches
+ * it on. If there is no counter, board_cycles_start() returns false, and board_cycles() returns 0. */
 bool board_cycles_start(void);
 uint32_t board_cycles(void);
 
 /* Returns the chip's identity, or 0: DBGMCU_IDCODE on the STM32F405, CPUID on other Cortex-M. */
 uint32_t board_chip(void);
 
-/* Use of the stack. board_stack_paint() fills the unused part with a pattern, as the start-up code has done;
- * board_stack_used_bytes() returns how many bytes, from the top, were overwritten since. Both sizes are 0 on the PC. */
+/* The start-up code and board_stack_paint() fill the unused part of the stack with a pattern. board_stack_used_bytes()
+ * returns the largest use of the stack since then. Both sizes are 0 on the PC. */
 void board_stack_paint(void);
 unsigned board_stack_used_bytes(void);
 unsigned board_stack_size_bytes(void);

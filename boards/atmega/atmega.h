@@ -21,7 +21,7 @@
 #define ATMEGA_STOP_BIT PB4
 #define ATMEGA_CELL_INPUT 0U
 #define ATMEGA_SUPPLY_INPUT 1U
-/* supply voltage at which the supply's input has the reference voltage */
+/* supply voltage that gives the converter's full scale */
 #define ATMEGA_SUPPLY_FULL_mV UINT32_C(50000)
 
 /* Switches interrupts off until atmega_go_on(). Returns the interrupt state before the call. */
@@ -64,8 +64,8 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 
 uint32_t atmega_ticks_of(atmega_instant at);
 
-/* Starts the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The chip
- * requires the second store within four clocks of the first. */
+/* Starts the watchdog. It resets the chip after 2048 clocks of its own oscillator, doubled `twice` times (DS 12.5.2).
+ * The chip requires the second store to WDTCSR within four clocks of the first. */
 static inline void atmega_watch(uint8_t twice) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
     const uint8_t settings =
@@ -87,7 +87,7 @@ void atmega_motor_start(void);
 void atmega_slots_start(void);
 void atmega_cell_start(void);
 
-/* Faults, which only software detects. */
+/* Faults that the software detects, because the chip does not. */
 typedef enum atmega_fault_kind {
     ATMEGA_FAULT_NONE,
     ATMEGA_FAULT_STRAY,  /* an interrupt without a handler */
@@ -112,7 +112,7 @@ void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 /* Reads the record of a fault before this start. Returns false if there is none; a second call finds none. */
 bool atmega_take_fault(atmega_fault_record *record);
 
-/* Drops the record and the remembered bytes, which are random after a power-on. */
+/* Drops the record and the remembered bytes. Call it after a power-on, because both may then be random. */
 void atmega_forget(void);
 
 /* Returns MCUSR at the processor's start (DS 12.5.1); 0: no reset occurred. */

@@ -2,8 +2,8 @@
  *
  * Timer 2 starts a conversion every 200 us, sixteen of the cell, then 24 of the supply: 8 ms. A sample is the mean of
  * the sixteen, with the time stamp of their middle, so it has no delay. Averaging makes a force that rotates at 6 Hz
- * 0.06 % too small. One count of the converter is 0.434 N. The mean's error is 0.03 N if the force changes by some
- * counts during the sixteen conversions, and below half a count, 0.22 N, if the force is constant.
+ * 0.06 % too small. One count of the converter is 0.434 N. The mean's round-off is up to half a count, 0.22 N, if the
+ * force is constant. It is 0.03 N if the force changes by several counts during the sixteen conversions.
  *
  * Without force, the amplifier's output is half of the reference, the chip's supply; near either end the amplifier is
  * saturated. If all counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. */
@@ -60,7 +60,7 @@ static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Number of ended conversions, of cell and supply, for the present sample. Only the interrupt uses these variables. */
+/* Only the interrupts use these variables. `place` counts all conversions that have ended in the present 8 ms. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;
@@ -86,7 +86,7 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* Stores a sample. A second interrupt, so that the first saves fewer registers. TCNT2 is the time since the tick. */
+/* Stores a sample. TIMER2_COMPA does not, because it would save more registers. TCNT2 is the time since the tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -145,7 +145,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* A sample's sum has 14 bits; one unit of the sum is four counts of hal/loadcell.h. */
+/* The sum is multiplied by 4, because it has 14 bits, and sample->raw has 16. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

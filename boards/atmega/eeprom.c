@@ -3,7 +3,7 @@
 
 #include "atmega.h"
 
-#define FIRST 256U /* not 0, because a failing supply may corrupt byte 0, the idle address */
+#define FIRST 256U /* not 0: EEAR rests at 0, and a failing supply may corrupt the byte at EEAR */
 #define SLOTS 2U
 #define ERASED 0xFFU
 #define ERASE _BV(EEPM0)
@@ -14,7 +14,7 @@ static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
 
-/* Returns false if the EEPROM stays busy. Programming a byte takes less than 20 ms, this loop more. */
+/* Returns false if the EEPROM stays busy. A byte takes less than 20 ms; the loop waits longer. */
 static bool rests(void) {
     for (uint16_t i = 0; i < 60000U; i++) {
         if ((EECR & _BV(EEPE)) == 0) {

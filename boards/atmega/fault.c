@@ -1,6 +1,6 @@
 /* fault.c: faults on a chip without fault hardware. The software detects an interrupt without a handler, a stack that
- * has reached the variables, and a restart without a reset. A restart follows a wild jump, because execution of erased
- * flash ends at address 0. Handler and start-up code first clear the enable's pin, without a register or the stack. */
+ * has reached the variables, and a restart without a reset: a wild jump into erased flash continues at address 0. The
+ * interrupt handler and the start-up code first clear the enable's pin. This needs no register and no stack. */
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -49,7 +49,7 @@ _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     }
 }
 
-/* `sp` is just below the return address of three bytes, the highest first. */
+/* `sp` is the stack pointer. The three bytes above it are the return address, its highest byte first. */
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp);
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp) {
     const uint32_t words = (uint32_t)sp[1] << 16 | (uint16_t)((uint16_t)sp[2] << 8) | sp[3];

@@ -7,7 +7,7 @@
 
 BOARD_KEPT static atmega_fault_record fault;
 
-/* A CRC of 16 bits suffices, because the record is read only after resets other than power-on. */
+/* 16 bits suffice: reset.c ignores the record after a power-on, when the memory is random. */
 static uint16_t sum_of_fault(void) {
     return (uint16_t)(wh_frame_crc(BOARD_KEPT_CRC_START, &fault.kind,
                                    offsetof(atmega_fault_record, sum)));

@@ -14,9 +14,9 @@ _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 static volatile bool driving; /* an interrupt may clear it, too */
 static uint16_t carried;      /* rounding error for the next control step, in parts */
 
-/* Sets timer 1: OC1A low, duty 0, disconnected from its pin, which is an input meanwhile. OC1A still has the level of
- * its last disconnection: only a strobe in normal mode changes it (DS 17.7.1, 17.8), and only normal mode makes OCR1A
- * take effect at once. ICR1 is writable only in modes that use it as TOP (DS 17.6). */
+/* Sets timer 1 to duty 0 with OC1A low and disconnected. Until this is done, the pin is an input, because OC1A may be
+ * high since it was last disconnected. Only a strobe in normal mode changes it (DS 17.7.1, 17.8), and only in normal
+ * mode does OCR1A take effect at once. ICR1 is writable only in modes that use it as TOP (DS 17.6). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;
@@ -49,12 +49,12 @@ static uint16_t parts_of(float volts) {
 
 unsigned hal_motor_start(void) {
     const unsigned status = hal_motor_status();
-    /* a hal_motor_off() in an interrupt waits until atmega_go_on() */
+    /* no interrupt may call hal_motor_off() in the middle of the start */
     const uint8_t before = atmega_hold();
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        /* a hal_motor_off() may have interrupted a change of the timer */
+        /* OCR1A has an old duty if an interrupt has called hal_motor_off() in hal_motor_set_voltage() */
         set_up_timer();
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
@@ -65,7 +65,7 @@ unsigned hal_motor_start(void) {
 
 void hal_motor_set_voltage(float volts) {
     if (!driving) {
-        return; /* no effect: a start begins at 0 */
+        return;
     }
     const uint16_t parts = parts_of(volts);
     const uint16_t owed = parts + carried;

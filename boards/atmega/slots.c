@@ -1,9 +1,9 @@
-/* slots.c: the slot sensors on the input captures of timers 4 and 5, which store the time of an edge in hardware (DS
- * 17.6), alternately of rising and falling edges. Their noise canceller requires four equal samples, 0.25 us.
+/* slots.c: the slot sensors on the input captures of timers 4 and 5. Each timer stores the time of an edge in hardware
+ * (DS 17.6): a rising edge, then a falling edge, and so on. The noise canceller requires four equal samples, 0.25 us.
  *
- * The chip does not report that a capture was overwritten before it was read. If several edges of one sensor come
- * within the latency of the interrupt, only the last is seen; if a pulse has ended by then, its end is missing.
- * Overruns count edges that found the memory full, and pulses that began too soon after the end of another pulse. */
+ * A new capture overwrites one that was not read yet, and the chip does not report this. If a pulse ends before the
+ * interrupt has read its first edge, its second edge is lost. Overruns count edges that found the memory full, and
+ * pulses that began before the interrupt had read the end of the last pulse. */
 #include "hal/slots.h"
 
 #include "atmega.h"
@@ -70,8 +70,8 @@ static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *f
     *flags = _BV(ICF4);
 }
 
-/* Returns the captured edge, as kept_edge.of. Makes the timer capture the opposite edge; if that has already passed,
- * the same edge again. If a burst has more edges than this loop checks, hal_slots_take() sets the edge. */
+/* Returns the captured edge, coded like kept_edge.of. Makes the timer capture the opposite edge or, if that has
+ * passed, the edge after it. If more edges pass than the loop checks, hal_slots_take() makes it await a pulse. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);

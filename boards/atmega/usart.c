@@ -7,7 +7,7 @@
 #define BAUD 115200UL
 #define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL)
 
-/* Powers of two that divide 256, so that indices wrap correctly. At most 24 bytes come in a control step of 2 ms. */
+/* Powers of two, because the indices wrap at 256. A control step of 2 ms receives at most 24 bytes. */
 #define IN_BYTES 64U
 #define OUT_BYTES 64U
 
@@ -38,7 +38,7 @@ static void keep(char byte) {
     }
 }
 
-/* A zero replaces a damaged byte, and bytes lost by an overrun or a full ring (hal/console.h). */
+/* Stores a zero instead of a damaged byte. Stores one zero if an overrun or a full ring lost bytes (hal/console.h). */
 ISR(USART0_RX_vect) {
     const uint8_t status = UCSR0A;
     const char byte = (char)UDR0;

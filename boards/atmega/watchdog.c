@@ -1,5 +1,5 @@
-/* watchdog.c: the chip's watchdog (DS 12.4) resets the chip; the pins then float, so the drive is off. Its oscillator
- * has 128 kHz within 15 %, and the chip's periods double from 14 ms to 8 s: a reset comes after 1 to 2.7 timeouts. */
+/* watchdog.c: the chip's watchdog (DS 12.4) resets the chip; the pins then float, so the drive is off. A reset comes
+ * after 1 to 2.7 times the timeout, because the oscillator's error is 15 % and the periods double from 14 ms to 8 s. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"

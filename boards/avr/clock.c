@@ -1,5 +1,5 @@
-/* clock.c: the board's clock on the AVR's 16-bit timer, with an interrupt that counts overflows. Programs without this
- * clock do not link this file: their steps, without interrupts, always take the same number of cycles. */
+/* clock.c: the board's clock on the AVR's 16-bit timer, with an interrupt that counts overflows. Programs that do not
+ * call board_ticks() have no interrupts, so their steps always take the same number of cycles. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>

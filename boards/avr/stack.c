@@ -1,4 +1,4 @@
-/* stack.c: measures the use of the stack on an AVR, which may use all memory after the variables, without a guard. */
+/* stack.c: use of the stack on an AVR. The stack may grow down to the variables; the chip has no guard. */
 #include "stack.h"
 
 #include <avr/io.h>

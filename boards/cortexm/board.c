@@ -15,7 +15,7 @@ void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, co
 
 bool board_converse(void) { return true; }
 
-/* CPUID, if the chip has no register with device and revision */
+/* The default is CPUID. A chip that has a register with its device and revision defines its address here. */
 #ifndef BOARD_CHIP_ID
 #define BOARD_CHIP_ID 0xE000ED00U
 #endif

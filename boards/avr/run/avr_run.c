@@ -110,7 +110,7 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     }
     firmware->frequency = all->hz;
     avr_load_firmware(avr, firmware);
-    uint32_t flags = 0; /* no copy to simavr's own console; no sleep while the program polls */
+    uint32_t flags = 0; /* simavr neither prints the output nor sleeps while the program polls */
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
                             on_byte, NULL);
@@ -135,7 +135,7 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
 
 /* Executes one instruction. Returns false if the program has ended. */
 static bool step(avr_t *avr) {
-    /* successive instructions with the stack pointer among the variables */
+    /* number of successive instructions after which the stack pointer was among the variables */
     static unsigned low = 0;
     const int state = avr_run(avr);
     if (state == cpu_Crashed) {
@@ -151,7 +151,7 @@ static bool step(avr_t *avr) {
     return state != cpu_Done;
 }
 
-/* Intervals that are reported as one: their number, their largest counts, and the sums of their counts (all...). */
+/* Intervals that are reported together: the largest of their counts, and the sums (`all`, `all_cycles`). */
 typedef struct group {
     uint64_t members;
     uint64_t instructions, cycles;
@@ -225,7 +225,7 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
 int main(int argc, char **argv) {
     const settings all = read_arguments(argc, argv);
     avr_global_logger_set(on_log);
-    /* by lines, so that a hanging program's output shows */
+    /* line buffered, so that the output of a program that hangs is visible */
     (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
     elf_firmware_t firmware;
     avr_t *avr = load(&all, &firmware);
