@@ -16,7 +16,7 @@
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* Maps a number to an integer of the same order. The order includes both zeros and NaN. */
+/* Maps a number to an integer of the same order. Unlike `<`, this orders -0 before +0, and gives NaN a place. */
 static uint64_t place_of(double x) {
     const uint64_t bits = number_bits(x);
     return bits >> 63 != 0 ? ~bits : bits | UINT64_C(1) << 63;
@@ -86,7 +86,7 @@ int poly_order(const poly *x, const poly *y) {
 
 /* === questions about a poly =================================================================== */
 
-/* A sum smaller than this, relative to its addends, is a rounding error of decimals. */
+/* A sum of at most this part of its larger addend is only round-off, because decimals are not exact in binary. */
 #define CANCELLED 1e-14
 /* A whole power of a sum is multiplied out if this takes at most this many products of terms. */
 #define POWER_TERMS_MAX 64
@@ -130,7 +130,7 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-/* A sum of positions stays a power if the exponent is at least `kept`. */
+/* Is base^exponent expanded? A sum of positions stays a power if the exponent is at least `kept`. */
 static bool power_multiplies_out(const poly *base, double exponent, double kept) {
     if (exponent <= 0.0 || !exponent_is_whole(exponent) ||
         (exponent >= kept && poly_is_place(base))) {
@@ -145,8 +145,8 @@ static bool power_multiplies_out(const poly *base, double exponent, double kept)
 
 /* === the limit of work ======================================================================== */
 
-/* Limit of the work of a derivation, in bytes: some half a minute. An arm of six joints of nonzero lengths needs
- * 0.42e9. */
+/* Largest work of a derivation, counted in bytes. This much work takes about half a minute. An arm with six joints and
+ * no zero lengths needs 0.42e9 bytes. */
 #define WORK_MAX ((size_t)1 << 29)
 /* Processing one term counts as this many bytes of work. */
 #define WORK_OF_TERM 2U
@@ -188,7 +188,7 @@ static int by_mono(const void *x, const void *y) {
     return left->turn < right->turn ? -1 : 1;
 }
 
-/* Sorts the terms, and adds those with the same product in the order of their entry. */
+/* Sorts the terms. Adds terms that have the same `mono`, in the order in which they entered the sum. */
 static void collect(poly_sum *s) {
     if (s->count > 1) {
         qsort(s->items, s->count, sizeof *s->items, by_mono);
@@ -360,7 +360,6 @@ static bool mono_equal(const void *x, const void *y) {
     return true;
 }
 
-/* A new object is a copy of `candidate`, which may be scratch memory. */
 const mono *mono_intern(algebra *a, mono *candidate) {
     uint64_t hash = hash_mix((uint64_t)candidate->trig,
                              candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
@@ -501,8 +500,8 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* A product of two sums with more products of terms than this is not expanded. */
 #define PRODUCT_TERMS_MAX 400000
-/* A sum of positions with at least this whole exponent stays a power: expanded, (x - b)^3 would lose its digits near x
- * = b. Squares are expanded, because equal sums of squares may have the same form only then. */
+/* A sum of positions stays a power if its exponent is whole and at least this, because the expanded form of (x - b)^3
+ * loses its digits near x = b. Squares are expanded: otherwise, equal sums of squares could differ in form. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
@@ -737,7 +736,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         return poly_mul(a, poly_pow(a, poly_of_term(a, t->coefficient, plain), exponent),
                         poly_pow(a, poly_of_term(a, 1.0, wave), exponent));
     }
-    /* The absolute value of the coefficient is taken out. Its sign stays inside, unless the exponent is whole. */
+    /* The coefficient's absolute value leaves the group. Its sign leaves the group only if the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
     const double outside = whole ? folding_power(t->coefficient, exponent)
                                  : folding_power(fabs(t->coefficient), exponent);
@@ -769,9 +768,9 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* Sums that differ only by a factor are equal after division by a coefficient. In a positive whole power it is not
-     * the constant term, so that x - b has one form for a symbol b and for a number b. In a fractional power, its sign
-     * stays inside. */
+    /* The base is divided by its first coefficient, so that sums that differ only by a factor become equal. If the
+     * exponent is positive and whole, a constant term does not count as the first, so that x - b has one form for a
+     * symbol b and for a number b. If the exponent is fractional, the base keeps its sign. */
     const bool whole = exponent_is_whole(exponent);
     const bool constant = base->terms[0].mono->count == 0 && base->terms[0].mono->trig == TRIG_NONE;
     const double size = base->terms[constant && whole && exponent > 0.0 ? 1 : 0].coefficient;

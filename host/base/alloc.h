@@ -1,5 +1,5 @@
-/* alloc.h: heap allocation for the whole host. If memory runs out, `count` elements of `size` bytes exceed SIZE_MAX, or
- * `count` < 0, the program ends with a message and exit status 1: no function returns NULL. The caller calls free(). */
+/* alloc.h: heap allocation for the whole host. The caller calls free(). No allocation returns NULL: if memory runs out,
+ * if `count` < 0, or if the size exceeds SIZE_MAX bytes, the program ends with a message and exit status 1. */
 #ifndef BASE_ALLOC_H
 #define BASE_ALLOC_H
 
@@ -27,8 +27,8 @@ char *alloc_entry(const char **list);
 /* The text that printf() would print. */
 char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Opens a memory stream. alloc_text_end() closes it and sets *text, for the caller to free: *length bytes and a zero
- * byte. `length` may be NULL. */
+/* Opens a memory stream. alloc_text_end() closes it, and stores its text in *text (with a zero byte at the end) and the
+ * text's length in *length. The caller frees *text. `length` may be NULL. */
 FILE *alloc_text(char **text, size_t *length);
 void alloc_text_end(FILE *stream);
 
@@ -47,8 +47,8 @@ char *arena_copy(struct arena *arena, const char *text, size_t length);
 char *arena_words(struct arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Returns `array`, or a copy with twice the capacity, so that it has memory for one element more than `count`. The
- * capacity must be the smallest power of two that is at least `count`. */
+/* Makes room for one element after the `count` in `array`. If `count` is 0 or a power of two, `array` counts as full:
+ * returns a copy with twice the capacity. Otherwise returns `array`. So an array must grow one element at a time. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
 /* Appends a copy of `element`, and adds one to *count. Returns the array, which may have moved. */

@@ -19,8 +19,8 @@ enum { EXIT_ROWS(EXIT_VALUE) };
 enum { EXITS = 0 EXIT_ROWS(EXIT_ONE) };
 #undef EXIT_ONE
 
-/* Prints a help text's list of exit statuses, a line for each row. why[EXITS]: the row's reason in this command; "": no
- * reason; NULL: no line. Further lines of a text must begin with seven spaces. */
+/* Prints the exit statuses in a help text. why[i] is the reason for the status of row i, or "" for none. If why[i] is
+ * NULL, the row is not printed. If a reason has further lines, they must begin with seven spaces. */
 void exit_describe(FILE *out, const char *const *why);
 
 #endif

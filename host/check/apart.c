@@ -1,5 +1,5 @@
-/* apart.c: start values that satisfy the holds. Newton's method finds the positions, one linear step the rates;
- * each step changes them as little as possible. Start values that the scene sets change only if they must. */
+/* apart.c: start values that satisfy the holds. Newton's method finds the positions. One linear step finds the rates.
+ * Each step is as small as possible. Start values that the scene sets change only if they must. */
 #include "apart.h"
 
 #include <math.h>
@@ -13,18 +13,18 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A nonzero value of a hold's expression is an error if it is below this part of terms(); a larger one is intended. */
+/* A nonzero value of a hold's expression is an error if it is below OFF_MOST * terms(). A larger value is intended. */
 #define OFF_MOST 0.5
-/* The holds' conditions are evaluated this many steps after the start, because a condition may become false at once. */
+/* The holds' conditions are evaluated this part of a step after the start, because they may become false at once. */
 #define SOON 1e-6
 
 typedef struct apart {
     const image *im;
-    state_list forces; /* results: [forced * (WH_LAW_ROWS + 2 n)] */
+    state_list forces; /* its result: [im->forced * (WH_LAW_ROWS + 2 n)] */
     int n;
-    int hold[HOLDS]; /* active holds at the start */
+    int hold[HOLDS]; /* indices in im->contact[] of the holds that are active at the start */
     int holds;
-    bool vanishes[HOLDS]; /* the expression changes its sign (has_zero()), unlike a distance */
+    bool vanishes[HOLDS]; /* has_zero() returned true; it is false for a distance */
     bool closes;          /* some hold has an error below OFF_MOST */
     double x[2 * N];      /* [2 n] positions, then rates */
 } apart;
@@ -46,7 +46,7 @@ static double along(const apart *a, int h, const double *x) {
     return sum;
 }
 
-/* The scale of a hold: the sum of |row[i] x[i]| over positions (`places`; an angle counts as 1 rad) or rates. */
+/* Scale of a hold: the sum of |row[i] x[i]|. If `places`, x are positions (an angle counts as 1 rad), else rates. */
 static double terms(const apart *a, int h, const double *x, bool places) {
     double sum = 0.0;
     for (int i = 0; i < a->n; i++) {
@@ -55,8 +55,8 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* The value of a curved hold's expression if it is an error; else 0. All holds close one linkage: if one has an error
- * below OFF_MOST, larger values of the others are errors, too. */
+/* Returns the value of a curved hold's expression if it is an error, else 0. If any hold has an error below OFF_MOST,
+ * larger values of other holds are errors, too, because all holds close one linkage. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -168,7 +168,7 @@ static bool fit_rates(apart *a, const bool *may) {
     return move(a, may, by, a->x + a->n);
 }
 
-/* Changes only start values that the scene does not set; if that fails, all except those of driven coordinates. */
+/* Changes only start values that the scene does not set or, if that fails, all. Driven coordinates never change. */
 static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     const apart before = *a;
     for (int all = 0; all < 2; all++) {
@@ -186,7 +186,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     return false;
 }
 
-/* The energy that an impulse removes by stopping the holds' rates w: 1/2 w (J M^-1 J^T)^-1 w; NaN: redundant holds. */
+/* An impulse that stops the holds' rates w removes the energy 1/2 w (J M^-1 J^T)^-1 w. NaN: holds are redundant. */
 static double lost_J(const apart *a) {
     double matrix[HOLDS * (HOLDS + 1)];
     const int n = a->holds;
@@ -213,7 +213,7 @@ static void say_values(FILE *out, const apart *a, const double *was) {
         const double value = a->x[i];
         const char *si = u->unit[primes].si;
         const bool has_unit = strcmp(si, "1") != 0;
-        /* the text replaces the whole start of the scene, so it includes unchanged values */
+        /* the user replaces all start values of the scene by this text, so it includes unchanged values */
         if (value != was[i] || (u->start_at[primes].source != NULL && !u->driven)) {
             fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
                     has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");

@@ -1,5 +1,5 @@
-/* apart.h: warnings about holds that a run's start violates. The run keeps the initial error of a hold's expression. An
- * impulse at t = 0 stops an initial rate and removes its energy. The warning suggests start values. */
+/* apart.h: warnings about holds that a run's start violates, and hints with better start values. The run keeps the
+ * initial error of a hold's expression. An impulse at t = 0 stops its initial rate, and removes energy. */
 #ifndef CHECK_APART_H
 #define CHECK_APART_H
 
@@ -7,11 +7,11 @@
 
 #include "host/image/image.h"
 
-/* An error or rate of a hold up to this part of the sum of its terms' magnitudes is round-off. */
+/* A hold's error or rate is round-off if it is at most APART_LEAST times the sum of its terms' magnitudes. */
 #define APART_LEAST 1e-6
 
-/* Returns the largest error or rate of a hold, relative to the sum of its terms' magnitudes. Warnings to `out` (may be
- * NULL) begin with `who`, such as "whirl run"; if `who` is NULL, prints only the text of the first. */
+/* Returns the largest error or rate of a hold, relative to the sum of its terms' magnitudes. Unless `out` is NULL,
+ * prints warnings that begin with `who`, such as "whirl run". If `who` is NULL, prints only the first one's text. */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif
