@@ -17,7 +17,7 @@ typedef struct command {
     const char *name;
     int (*run)(int count, char **words);
     const char *takes; /* arguments, for the list of commands */
-    const char *text;  /* purpose; NULL hides a command of the project's own build */
+    const char *text;  /* purpose; NULL: not listed, because only build and tests use the command */
 } command;
 
 static const command commands[] = {

@@ -38,7 +38,7 @@ int setting_number(const setting *s) {
     return i;
 }
 
-/* Tables of each form, with the default number of cells, fewer and more. */
+/* Tables of each form with three numbers of cells: the default (cells = 0), a smaller and a larger one. */
 static const struct {
     const char *word;
     const char *options;
@@ -98,7 +98,6 @@ const char *setting_word(const setting *s, setting_axis axis) {
     return *word;
 }
 
-/* The last axis runs fastest. */
 static setting combination(int i) {
     int word[AXES];
     for (int axis = AXES - 1; axis >= 0; axis--) {
@@ -152,7 +151,7 @@ setting setting_at(int i) {
     }
 }
 
-/* This is no column of `numbers`, because `numbers` has no row for compensated sums in double. */
+/* Does not use `numbers`, because `numbers` has no row for compensated sums in double. */
 cost_number setting_cost_number(const setting *s) {
     return setting_is_fixed(s)           ? COST_FIXED
            : s->number == &engine_double ? COST_DOUBLE
@@ -204,8 +203,8 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 /* === trials =================================================================================== */
 
 #define REFERENCE_OPERATIONS 6e8 /* limit for the finest runs of all references: some seconds */
-#define SURELY 10.0 /* an error below this many times the reference's own error is only a bound */
-#define USABLE 1.0  /* a run with a larger error, as a part of the largest value, is useless */
+#define SURELY 10.0 /* an error below SURELY times the reference's error is given as a bound */
+#define USABLE 1.0  /* largest usable error, relative to the quantity's largest value */
 
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
     whole_ratio s = t->request.spacing;
@@ -449,7 +448,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             return (trial_result){.ran = false};
         }
         deviation_of_what what = t->what;
-        if (what.column >= 0) { /* for one column, give_up is in the column's unit */
+        if (what.column >= 0) { /* only this column is compared, so give_up has its unit */
             what.give_up =
                 number_most(t->tolerated, USABLE * t->reference[p]->column[what.column].largest);
         }

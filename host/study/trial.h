@@ -16,7 +16,6 @@ typedef struct setting {
     const engine_kind *number;
 } setting;
 
-/* In the order of the options. The first word of an axis is its default. */
 typedef enum setting_axis {
     AXIS_METHOD,
     AXIS_NUMBER,
@@ -29,13 +28,12 @@ typedef enum setting_axis {
 const char *setting_heading(setting_axis axis); /* of a column */
 const char *setting_word(const setting *s, setting_axis axis);
 
-/* All combinations that make sense for some scene. With a matrix there is no choice of method or angles, and with
- * tables none of angles. Fixed point has one method and no other setting. */
+/* All combinations of words, except those in which a word cannot have an effect. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
-/* Is the method of this setting requested? `method` NULL requests rk4 and nystroem3 to 5, because in the median of the
- * points in docs/figures/price.csv no other method is cheaper. A matrix replaces the default method. */
+/* Is the setting's method requested? If `method` is NULL, rk4 and nystroem3 to 5 are: in the median of the points in
+ * docs/figures/price.csv, no other method is cheaper. A setting with a matrix counts as rk4. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
 /* setting_order(): a sort key. setting_number(): index of the number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
@@ -43,19 +41,19 @@ enum { SETTING_NUMBERS = 4 };
 int setting_number(const setting *s);
 cost_number setting_cost_number(const setting *s);
 
-/* May a scene refuse this form without an error? A matrix requires a linear scene, tables one turn angle. */
+/* Do only some scenes support these settings? If so, a refusal is no error. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Does this setting, with which `im` was made, give a step that no other one gives? False: the method does not support
- * the system, or sines are looked up in any case because they cannot be rotated. */
+/* Is a trial of this setting useful? `im` was made with it. False if the method does not support the system, or if
+ * --angles lookup gives the same step as --angles turned, because the step cannot rotate its sines. */
 bool setting_is_own(const setting *s, const image *im);
-/* Is the number type fixed point? Then a scene may have no step, or no step of this length (host/fixed). */
+/* Is the number type fixed point? It does not support every scene, nor every length of step (host/fixed). */
 bool setting_is_fixed(const setting *s);
-/* Does the cost of a step depend on its length? The entries of a matrix do, and so do shifts in fixed point. */
+/* Does a step's length affect its cost? It affects the entries of a matrix, and the shifts in fixed point. */
 bool setting_price_varies(const setting *s);
 
 enum { SETTING_TEXT = 160 }; /* room for setting_options() */
-/* " --method rk4 --angles lookup": options of `whirl derive`; with the number type, of `whirl run`. Returns text. */
+/* Returns text: the options of `whirl derive`, " --method rk4", or if `with_number`, those of `whirl run`. */
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]);
 /* Additional option of `whirl derive --as c`: " --number fixed", or "". */
 const char *setting_form(const setting *s);
@@ -64,9 +62,9 @@ const char *setting_form(const setting *s);
 /* Makes images of the scene at each point of its varied values. */
 typedef struct trial_source {
     void *context;
-    int points; /* 1: the scene itself; else also the points of its ranges */
-    /* The image of a point, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees
-     * it. NULL without an image: reported, unless the scene refuses the setting (setting_may_be_refused()). */
+    int points; /* number of points: combinations of the varied values, and the scene's own values */
+    /* Makes the image of a point. `step` and `until` in seconds, "0.001"; NULL: the scene's own. The caller frees it.
+     * Returns NULL if the scene refuses the setting (setting_may_be_refused()), or after an error, which it reports. */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
     /* A point as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
     const char *(*name)(void *context, int point);
@@ -86,15 +84,15 @@ typedef struct trial_request {
 
 typedef struct trials {
     trial_request request;
-    int points;    /* number of the source's points with motion; all points if there is no motion */
-    int *place;    /* [points] number of each point in the source */
-    char *still;   /* the options of the omitted points: " --set M=0,"; or NULL */
+    int points;    /* number of compared points: those with motion, or all if none has motion */
+    int *place;    /* [points] index of each compared point in the source */
+    char *still;   /* options of the omitted points, a comma after each; NULL: none is omitted */
     image **image; /* [points] images of the references */
     reference **reference; /* [points] */
     int worst;             /* the point whose reference ends first, or is least accurate */
     int records;           /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double tolerated;    /* with --of: errors up to this are usable, even for a smaller quantity */
+    double tolerated;    /* with --of: this error is usable even if it exceeds the largest value */
     bool reliable;       /* all references are reliable */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
@@ -105,22 +103,22 @@ typedef struct trial_result {
     bool ran;     /* false: stopped, or there is no image */
     bool usable;  /* at all points the run reached its end, with an error below the largest value */
     double error; /* the largest of all points, in trial_unit() */
-    bool bound;   /* `error` includes the reference's error, which is about as large */
+    bool bound;   /* `error` is a bound, the sum of the measured error and the reference's error */
     int point;    /* the point with the worst error */
     int column;   /* the component with the worst error */
-    double evaluations;      /* of the accelerations per simulated second, the most of all points */
+    double evaluations;      /* evaluations per simulated second; the maximum of all points */
     double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
-/* Computes the references. False, reported on standard error, if the scene has no `of`, or an image is missing. */
+/* Computes the references. Returns false if make() fails, or, with a message, if `of` is no column, or has noise. */
 bool trial_begin(trials *t, const trial_request *w);
 void trial_end(trials *t);
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Estimated operations of trial_run(), without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* The setting's cost at the most expensive point. *own: false if setting_is_own() is, or if the scene refuses the
- * setting, perhaps only with this step (setting_price_varies()). In fixed point this takes as long as a run. */
+/* The setting's cost at the most expensive point. Sets *own to false if setting_is_own() returns false, or if the scene
+ * refuses the setting with this step. In fixed point the function runs the scene to find ranges of quantities. */
 cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own);
 
 const char *trial_place(const trials *t, int point);
@@ -136,7 +134,7 @@ const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
 /* The step as --step takes it, with the fewest digits that are read back exactly. Returns text. */
 const char *trial_step_text(const trials *t, deviation_pace pace, char text[NUMBER_SIZE]);
-/* The end of the compared motion, as --until takes it. Ranges in fixed point come from a run to it. Returns text. */
+/* The end of the compared motion, as --until takes it. In fixed point, a run to this end finds ranges of quantities. */
 const char *trial_until(const trials *t, char text[NUMBER_SIZE]);
 
 #endif
