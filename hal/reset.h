@@ -21,18 +21,18 @@ typedef enum hal_reset {
 /* Call it after hal_clock_start() (clock.h). */
 hal_reset hal_reset_cause(void);
 
-/* Writes the cause in words, for consoles; for a fault also its kind, address, time and stage. Writes at most room - 1
- * characters, at least one, and a NUL. Returns the number of characters. */
+/* Writes the cause in words, for consoles. If it is a fault, the words include its kind, address, time and stage.
+ * Returns the number of characters before the NUL: 1 to room - 1. */
 unsigned hal_reset_words(char *words, unsigned room);
 
-/* Sets the stage in the record of a fault, a number that the program chooses. It costs one store instruction. */
+/* Stores the program's stage (any number) for the record of a later fault. It costs one store instruction. */
 void hal_reset_mark(uint32_t state);
 
 /* Maximum number of bytes that can survive a reset. */
 #define HAL_REMEMBER_BYTES 32U
 
-/* Keeps bytes[count] through a reset, instead of those of the last call; count <= HAL_REMEMBER_BYTES. If a reset
- * interrupts the call, the earlier bytes survive. Do not call it from an interrupt. */
+/* Stores bytes[count] so that they survive a reset; count <= HAL_REMEMBER_BYTES. They replace the bytes of the last
+ * call, which survive if a reset interrupts this call. Do not call it from an interrupt. */
 void hal_remember(const void *bytes, unsigned count);
 
 /* Copies the bytes that survived the reset to bytes[HAL_REMEMBER_BYTES]; call it before hal_remember(). Returns their

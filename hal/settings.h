@@ -1,6 +1,6 @@
-/* settings.h: permanent memory for settings: two slots in separate sectors, for core/station/store.h. Call these
- * functions with the motor off and not from an interrupt: the erase of a flash sector may block the processor for half
- * a second. That exceeds any watchdog's timeout, so lengthen the timeout first. */
+/* settings.h: permanent memory for settings: two slots in separate sectors, for core/station/store.h. Do not call
+ * these functions from an interrupt or while the motor is on: the erase of a flash sector may block the processor for
+ * half a second. Before a call, set the watchdog's timeout to more than HAL_SETTINGS_TICKS. */
 #ifndef HAL_SETTINGS_H
 #define HAL_SETTINGS_H
 
@@ -17,8 +17,8 @@ WH_C_BEGIN
 /* Longest duration of a call, in ticks of the capture timer (clock.h). */
 #define HAL_SETTINGS_TICKS 1000000U
 
-/* `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. False: the memory stays busy, is protected, worn out or absent. A
- * power failure during a call leaves arbitrary bytes in this slot, and the other slot intact. */
+/* For all functions: `slot` is 0 or 1, and at + count <= HAL_SETTINGS_BYTES. The result is false if the memory stays
+ * busy or is protected, worn out or absent. A power failure during a call leaves arbitrary bytes in this slot only. */
 
 /* Sets all bytes of the slot to 0xFF. */
 bool hal_settings_erase(unsigned slot);

@@ -13,7 +13,7 @@
 
 WH_C_BEGIN
 
-/* half of the slot's angle: 2 mm wide at a radius of 57.3 mm */
+/* half of the slot's angle; the slot is 2 mm wide at a radius of 57.3 mm */
 #define HAL_SLOT_LEAD_DEG 1.0f
 
 typedef enum hal_slot_end { HAL_SLOT_LEADING, HAL_SLOT_TRAILING } hal_slot_end;
@@ -29,8 +29,8 @@ typedef struct hal_slot_edge {
  * or was very short. Some boards give only leading edges. */
 bool hal_slots_take(hal_slot_edge *edge);
 
-/* Returns how often edges were lost, or may have been: an edge came before the previous one was read, or the queue was
- * full. A full queue pauses the capture until an edge is taken, so that a storm of edges takes no computing time. */
+/* Returns how often an edge may have been lost: the edge before it was not read yet, or the queue was full. A full
+ * queue pauses the capture until an edge is taken, so that a storm of edges takes no computing time. */
 uint32_t hal_slots_overruns(void);
 
 WH_C_END

@@ -12,18 +12,18 @@ WH_C_BEGIN
 /* Longest time between two samples of the input, in ticks of the capture timer (clock.h). */
 #define HAL_STOP_PERIOD_TICKS 2000U
 
-/* True if the last sample shows stop pressed (not debounced), before the first sample, and if the line is broken. */
+/* True if the last sample (not debounced) shows a pressed stop, if there is no sample yet, or if the line is broken. */
 bool hal_stop_pressed(void);
 
-/* Source of a pressed stop; EITHER if the stop contacts and the drive stage's fault share a line. */
+/* Source of a pressed stop. */
 typedef enum hal_stop_source {
-    HAL_STOP_EITHER,
-    HAL_STOP_INPUT, /* the stop contacts; the drive stage reports no fault */
-    HAL_STOP_DRIVE  /* a fault of the drive stage, on its own line */
+    HAL_STOP_EITHER, /* unknown: the stop contacts and the drive stage's fault share a line */
+    HAL_STOP_INPUT,  /* the stop contacts */
+    HAL_STOP_DRIVE   /* a fault of the drive stage, which has its own line */
 } hal_stop_source;
 hal_stop_source hal_stop_source_now(void);
 
-/* False before the first sample and if the line is broken: hal_stop_pressed() then does not prove a pressed button. */
+/* False if there is no sample yet or the line is broken. hal_stop_pressed() is then true even without a press. */
 bool hal_stop_heard(void);
 
 WH_C_END

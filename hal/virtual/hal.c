@@ -17,7 +17,7 @@ hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
-/* True between the calls that take the leading edge of `pulse` and its trailing edge. No other pulse begins meanwhile,
+/* True after the leading edge of `pulse` was taken, until its trailing edge is taken. No other pulse begins in between,
  * because pulses are farther apart than they are long. */
 static bool is_high;
 static hal_slot_edge pulse;
@@ -109,7 +109,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* the model has no faults */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* no record of faults */ }
 
 void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;

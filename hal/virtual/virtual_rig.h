@@ -38,7 +38,7 @@ typedef struct hal_virtual_faults {
     unsigned lose_samples;   /* number of load samples still to lose */
     bool stuck_load_cell;    /* the load cell repeats its last count */
     float stuck; /* fraction of the supply voltage that is applied for any command; 0: no fault */
-    bool deaf;   /* with `stuck`, the stage also ignores the enable; only the watchdog cuts it */
+    bool deaf;   /* if `stuck`, the stage ignores the enable, but not `cut` and `stop_cuts` */
     bool freewheels; /* the stage cannot brake */
 } hal_virtual_faults;
 
@@ -63,7 +63,7 @@ typedef struct hal_virtual_rig {
     bool cut;     /* the watchdog has cut the motor */
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
-    bool stop_cuts;    /* a short press of stop has cut the drive until hal_motor_off() */
+    bool stop_cuts;    /* a press of stop has cut the drive; hal_motor_off() ends the cut */
     bool stop_pressed; /* may be set at any time */
     hal_reset cause;   /* why the processor started */
     bool in_reset;     /* from a reset until hal_clock_start(); the rotor keeps turning */
@@ -72,20 +72,20 @@ typedef struct hal_virtual_rig {
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
-/* Puts the rig at rest at its scene's start, motor and watchdog off. Returns false if the scene is not the fixed rig:
- * one angle, one input, at least one output, a step of whole microseconds. */
+/* Puts the rig at its scene's start, with motor and watchdog off. Returns false if the scene cannot be the fixed rig,
+ * which has one angle, one input and 1 to 8 outputs. The scene's step must be whole microseconds (not checked). */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
-/* Advances the time to `ticks`, or up to one step of the model later. */
+/* Advances the time by whole steps of the model until it is `ticks` or later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
-/* Resets the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples are lost, and
- * the timer restarts; the rotor keeps turning, also through the next hal_clock_start(). */
+/* Resets the processor; `cause` must not be HAL_RESET_POWER_ON. Drive and watchdog go off, pulses and samples are lost,
+ * and the timer restarts. The rotor keeps turning, and the next hal_clock_start() does not stop it. */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* Switches the enable on and sets a voltage. The three functions after it act like hal_motor_off(), hal_slots_take()
- * (leading edges only) and hal_loadcell_take(). */
+/* Enables the drive stage and sets its voltage. */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
+/* The next three functions act like hal_motor_off(), hal_slots_take() for leading edges, and hal_loadcell_take(). */
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);

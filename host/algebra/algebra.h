@@ -30,18 +30,17 @@ struct algebra {
     intern_table atoms;
     intern_table monos;
     intern_table polys;
-    intern_table products;    /* memo_pair of two polys */
-    intern_table derivatives; /* memo_pair of a poly and an atom */
-    intern_table lets;        /* memo_pair of a symbol and NULL */
-    /* work so far, in bytes: terms processed and objects made; its limit bounds time and memory */
+    intern_table products;    /* memo_pairs; left and right are polys */
+    intern_table derivatives; /* memo_pairs; left is a poly, right is an atom */
+    intern_table lets;        /* memo_pairs; left is a symbol, right is NULL */
+    /* bytes of all new objects, plus WORK_OF_TERM for each processed term; the limit is WORK_MAX (poly.c) */
     size_t work;
     bool overflow;
     const poly *zero;
     const poly *one;
 };
 
-/* Interning returns the stored object equal to `candidate`. The caller frees scratch objects, the arena interned
- * ones. */
+/* The caller frees scratch objects. Interned objects belong to the arena. */
 mono *mono_scratch(int factors);
 const mono *mono_intern(algebra *a, mono *candidate);
 const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig kind,
@@ -59,15 +58,15 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 /* Negative if x comes before y, 0 if they are equal, else positive. */
 int poly_order(const poly *x, const poly *y);
 
-/* x + y, or 0 if the sum is only the round-off of decimals. */
+/* x + y, or 0 if the sum is at most 1e-14 of the larger addend, because it is then only round-off. */
 double coefficient_sum(double x, double y);
-/* Is p a sum of at least two terms, made of positions, parameters and numbers only, without rates and functions? */
+/* Is p a sum of at least two terms that contain only numbers, positions, parameters and inputs? */
 bool poly_is_place(const poly *p);
 
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    /* number in the order of entry; equal products are added in this order */
+    /* order of entry; the coefficients of equal `mono` are added in this order */
     size_t turn;
 } sum_item;
 
@@ -83,7 +82,7 @@ void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
 /* Returns the sum, and frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
-/* base^exponent. If the exponent is `kept` or more, whole powers of sums of positions are not expanded. */
+/* base^exponent. It is not expanded if exponent >= kept and poly_is_place(base). */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
 /* memo_get() returns the stored result for the pair, or NULL. */

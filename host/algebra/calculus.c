@@ -33,7 +33,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
     case FN_TANH: /* cosh(x)^-2 is precise; 1 - tanh(x)^2 is not if tanh(x) is near 1 */
         return poly_pow(a, poly_call(a, FN_COSH, x, NULL), -2.0);
     case FN_MIN:
-    /* 1 for the selected argument, 0 for the other; 1/2 for both if they are equal */
+    /* the slope is 1 for the selected argument and 0 for the other; 1/2 for both if they are equal */
     case FN_MAX: {
         const poly *lead = poly_call(a, FN_SIGN, poly_sub(a, x, y), NULL);
         const double side = (which == 0) == (function == FN_MAX) ? 0.5 : -0.5;
@@ -63,7 +63,7 @@ static double atom_value(const atom *x, poly_value *value, void *context) {
     return 0.0;
 }
 
-/* Returns the sum of the terms. With `sizes`: the sum of their absolute values, with 1 for each sine and cosine. */
+/* Returns the value of poly_magnitude() (poly.h) if `sizes` is true, otherwise that of poly_evaluate(). */
 static double sum_of_terms(const poly *p, poly_value *value, void *context, bool sizes) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -260,8 +260,8 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
 typedef struct substitution {
     poly_replacement *replace; /* NULL: replaces nothing */
     void *context;
-    double kept;       /* from this exponent on, whole powers of sums of positions stay powers */
-    intern_table done; /* memo_pair of a poly or atom and NULL */
+    double kept;       /* argument `kept` of poly_power() */
+    intern_table done; /* memo_pairs; left is a poly or an atom, right is NULL */
 } substitution;
 
 static const poly *substitute(algebra *a, const poly *p, substitution *s);
@@ -318,7 +318,7 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    /* 2.0 keeps squares, too: the slope of (x - b)^3 contains (x - b)^2, which must stay a power */
+    /* kept = 2.0: squares stay powers, because the derivative of (x - b)^3 contains (x - b)^2 */
     substitution s = {replace, context, 2.0, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);

@@ -6,15 +6,15 @@
  *
  *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
  *
- * Whole powers of sums of positions are not expanded from the third on, so that (x - b)^3 keeps its digits near x = b.
- * Two such powers have one form if their sums differ only in order, sign and scale. poly_expanded() makes them
- * comparable with their expanded form.
+ * A sum of positions with a whole exponent of 3 or more is not expanded, so that (x - b)^3 keeps its digits near x = b.
+ * Two such powers have the same base if their sums differ only in order, sign and scale. poly_expanded() expands them,
+ * for a comparison with sums that are already expanded.
  *
  * Polys, products and atoms are interned in an `algebra`: equal objects are the same pointer, results are memoized, and
  * objects never change.
  *
- * Coefficients are doubles. A sum below 1e-14 of its addends counts as zero, so that decimal parameters (0.1 + 0.2 -
- * 0.3) leave no spurious terms. */
+ * Coefficients are doubles. A sum counts as zero if it is at most 1e-14 of its larger addend, so that decimal
+ * parameters (0.1 + 0.2 - 0.3) leave no spurious terms. */
 #ifndef ALGEBRA_NORMAL_FORM_H
 #define ALGEBRA_NORMAL_FORM_H
 
