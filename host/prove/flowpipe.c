@@ -286,7 +286,7 @@ static void reduce(zonotope *z, double *rounding) {
     free(radius);
 }
 
-/* Replaces vector[n] by the middle of map vector + more (NULL: 0), and adds its error to rounding[n]. */
+/* Computes to[n] = map vector + more (NULL: 0). Then vector[n] = middle of `to`, and rounding[n] += radius of `to`. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *rounding) {
     for (int i = 0; i < n; i++) {
@@ -335,16 +335,16 @@ struct flowpipe {
     const exact_motion *motion;
     int states;
     int order;
-    int first;        /* coefficients up to this one have derivatives; later ones are small */
+    int first;        /* highest order with derivatives; coefficients of higher order are small */
     taylor *middle;   /* Taylor coefficients at the centre */
     taylor *all;      /* Taylor coefficients over the whole box, with derivatives up to `first` */
-    taylor *over;     /* Taylor coefficients over a whole step, to one order more */
+    taylor *over;     /* Taylor coefficients over `stay`, up to `order` + 1 */
     double *centre;   /* [states] a point of the tube is `centre` plus `off` */
     zonotope *off;    /* deviation from the centre */
     enclosure *box;   /* [states] box of the points, along the state axes */
     double *axes;     /* [states * states] axes that turn with the motion */
     enclosure *along; /* [states] box of `off` along `axes` */
-    enclosure *turn;  /* [first + 1][states * states] derivatives of the coefficients, times axes */
+    enclosure *turn;  /* [first + 1][states * states] derivatives of coefficients along `axes` */
     enclosure *stay;  /* [states] contains the motion during the whole step */
     double *largest;  /* [states] largest absolute value so far */
     double open_s;    /* length of the open step; 0: none */
@@ -422,8 +422,9 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
                          taylor_of(t->over, i, t->order + 1)[0]);
 }
 
-/* Does every motion from the box stay in `stay` for h_s? If one first left it at t, its Taylor polynomial, with
- * Lagrange's remainder over `stay` up to t, would be inside: a contradiction. *excess: the remainder / its bound. */
+/* Does every motion from `box` stay in `stay` for h_s? Before a motion leaves `stay`, its Taylor polynomial plus
+ * Lagrange's remainder over `stay` contains it. If this sum is inside `stay`, no motion leaves. *excess: the largest
+ * remainder of a state, divided by its limit. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -480,7 +481,7 @@ double flowpipe_open(flowpipe *t, double most_s) {
         double excess;
         const bool stay = stays(t, h_s, &excess);
         excess = stay ? excess : enclosure_larger(excess, 1e6);
-        /* the next trial's length, from the order of the remainder */
+        /* The remainder grows as length^(order + 1): this length brings it just below its limit. */
         const double factor =
             excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(t->order + 1)) : 2.0;
         t->guess_s = h_s * enclosure_larger(0.4, enclosure_lesser(factor, 1.5));
@@ -524,7 +525,7 @@ void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x) {
     }
 }
 
-/* Moves the centre by the middle of the displacement, so that little precision is lost. left[]: its other part. */
+/* Moves the centre by the middle of its displacement. left[states] encloses the displacement minus this move. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);
@@ -547,7 +548,7 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
     t->products +=
-        2.0 * (double)n * (double)n * (double)t->off->count; /* map, and zonotope_frame() */
+        2.0 * (double)n * (double)n * (double)t->off->count; /* zonotope_map(), zonotope_frame() */
     for (int i = 0; i < n; i++) {
         /* the derivatives must hold on the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

@@ -1,10 +1,10 @@
-/* flowpipe.h: a tube around the exact motion from its start: at each time a box that provably contains it. The steps
- * are Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson,
- * Corliss, Validated solutions of initial value problems, 1999). First, a box is found that contains the motion over
- * [0, h]: the Taylor series, with its remainder over this box, stays inside. Then x(t + tau) is the sum of the Taylor
- * polynomial at the centre of the current set, its derivatives times the deviation from the centre, and the remainder
- * over that box. The deviation is a box along axes that turn with the motion. All numbers are enclosures, because of
- * round-off, and because no double represents some parameters. */
+/* flowpipe.h: a tube around the exact motion: for each time, a box that provably contains the motion. The method is
+ * Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson, Corliss,
+ * Validated solutions of initial value problems, 1999). A step first finds a box that contains the motion over [0, h].
+ * Then x(t + tau) is the sum of three parts: the Taylor polynomial at the centre of the current set; the polynomial's
+ * derivatives times the deviation from the centre; and the remainder over that box. The deviation is enclosed in a box
+ * along axes that turn with the motion. All numbers are enclosures, because operations round, and because a parameter
+ * such as 0.1 is not a double. */
 #ifndef PROVE_FLOWPIPE_H
 #define PROVE_FLOWPIPE_H
 
@@ -27,7 +27,7 @@ typedef struct zonotope {
     double *generator; /* [most][n] */
 } zonotope;
 
-/* `most` generators fit, at least 4 n. */
+/* Makes room for `most` generators, or for 4 n if `most` is less. */
 zonotope *zonotope_new(int n, int most);
 void zonotope_free(zonotope *z);
 
@@ -36,7 +36,7 @@ void zonotope_box(const zonotope *z, enclosure *box);
 /* Computes nearly orthogonal axes, in columns, the first along the longest extent. off[n] encloses the
  * deviation's components along them. */
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off);
-/* Applies all maps in map[n * n], and adds `more`[n]. */
+/* Replaces each deviation d by map d + more, for all matrices in map[n * n] and all vectors in more[n]. */
 void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more);
 
 enum { FLOWPIPE_ORDER = 26 };
@@ -47,8 +47,8 @@ typedef struct flowpipe flowpipe;
 flowpipe *flowpipe_new(const exact_motion *m, int order);
 void flowpipe_free(flowpipe *t);
 
-/* Opens a step of at most `most_s`. Returns its length, s, or 0 if no useful step is possible. Until flowpipe_on(),
- * flowpipe_at() encloses the motion tau_s after the step's start, 0 <= tau_s <= length: x[states]. */
+/* Opens a step of at most `most_s`. Returns its length in s, or 0 if no useful step is possible. Until flowpipe_on(),
+ * flowpipe_at() may be called: x[states] encloses the state at tau_s after the step's start, 0 <= tau_s <= length. */
 double flowpipe_open(flowpipe *t, double most_s);
 void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x);
 /* Ends the step at tau_s. Returns false if the tube ends there. */

@@ -90,8 +90,8 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
-/* Computes x op y for numbers. A double computed without an error stays a double: 2*3 is the whole exponent 6. The
- * error terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
+/* Computes x op y for numbers. If both are doubles and the double result is exact, returns that double, so that
+ * 2*3 is a whole exponent. The error terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
 static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
@@ -106,7 +106,7 @@ static enclosure folded(char op, enclosure x, enclosure y) {
                    : (op == '+' ? enclosure_add(x, y) : enclosure_sub(x, y));
     }
     const double r = op == '*' ? a * b : a / b;
-    const double left = op == '*' ? a : r; /* left * b must equal `whole` */
+    const double left = op == '*' ? a : r; /* r is exact if left * b is exactly `whole` */
     const double whole = op == '*' ? r : a;
     const double c = 0x1.0000002p27 * left;
     const double d = 0x1.0000002p27 * b;
@@ -390,8 +390,8 @@ static int hyperbolic(graph *g, int a, bool sine) {
                      sine ? graph_sub(g, up, down) : graph_add(g, up, down));
 }
 
-/* Returns a bound on the angle in [-pi/2, pi/2] whose sine (or tangent), which increases there, is x. It tests angles
- * at increasing distances from the computed one. */
+/* Returns an upper (side 1) or lower (side -1) bound on asin(x), or on atan(x) if `tangent`. Tests angles at increasing
+ * distances from the computed one: an angle is an upper bound if its sine or tangent is above x. */
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */

@@ -1,7 +1,6 @@
-/* graph.h: expressions as a graph of operations in which equal subexpressions are one node. Nothing is rounded or
- * dropped: numbers are enclosures, and simplifications hold for all real values (0 + x, 1 x, x - x). So enclosing the
- * nodes encloses the motion of the given energies, without the algebra's normal form, which drops terms below 1e-14.
- * Nodes are numbered from 0; a node's number is above those of its operands. */
+/* graph.h: expressions as a graph of operations in which equal subexpressions are one node. Numbers are enclosures, and
+ * simplifications (0 + x, 1 x, x - x) hold for all real values. A proof cannot use the algebra's normal form, because
+ * that drops sums below 1e-14 of their addends. Nodes are numbered from 0, operands before their users. */
 #ifndef PROVE_GRAPH_H
 #define PROVE_GRAPH_H
 
@@ -19,8 +18,8 @@ typedef enum node_kind {
     NODE_MULTIPLE, /* number * left */
     NODE_SQUARE,
     NODE_RATIO,
-    NODE_SINE, /* right: the cosine of the same angle, the next node; from here on functions of `left` */
-    NODE_COSINE,
+    NODE_SINE,   /* the next node is its cosine; kinds from here on are functions of `left` */
+    NODE_COSINE, /* right: the sine of the same angle */
     NODE_EXP,
     NODE_LOG,
     NODE_POWER /* left ^ number, left > 0 */
@@ -73,10 +72,10 @@ int graph_without(graph *g, int a, int first);
 typedef struct reader_symbols {
     graph *graph;
     const instance *instance;
-    int *first; /* [coordinate_count] variable of an unknown's value; the next one is its rate */
-    /* [coordinate_count] order of an unknown's highest derivative, which is variable `highest` + unknown */
-    int *order;
-    int highest;    /* number of variables of the state */
+    /* derivative p of unknown i is variable first[i] + p if p < order[i], or variable highest + i if p = order[i] */
+    int *first;     /* [coordinate_count] */
+    int *order;     /* [coordinate_count] */
+    int highest;    /* number of states */
     int *parameter; /* [parameter_count] node of each parameter; -1: not made yet */
     int *let;       /* [let_count] node of each `let`; -1: not made yet */
     diags *errors;

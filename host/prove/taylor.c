@@ -8,7 +8,7 @@
 #include "host/number/enclosure.h"
 
 /* === enclosures with derivatives ============================================================== */
-/* An enclosure (entry 0), then its derivatives by all states, `width` entries together. Zeros cost almost nothing. */
+/* An array of `width` enclosures: entry 0 is the value, and the others, if any, are its derivatives by the states. */
 
 static void dual_zero(enclosure *to, int width) {
     for (int j = 0; j < width; j++) {
@@ -224,7 +224,7 @@ static void find(const taylor *t, int self, int k) {
     const node *n = &t->motion->node[self];
     enclosure *to = at(t, self, k);
     if (n->kind == NODE_SINE || (n->kind == NODE_VARIABLE && k == 0)) {
-        return; /* already computed, or computed with its cosine */
+        return; /* taylor_find() sets a variable's start; waves() computes a sine with its cosine */
     }
     dual_zero(to, width_of(t, k));
     switch (n->kind) {

@@ -1,4 +1,4 @@
-/* show.c: polys for readers: collected by rates and accelerations, factored. */
+/* show.c: printing of polys: it collects terms by rates and accelerations, and factors them. */
 #include "host/show/show.h"
 
 #include <ctype.h>
@@ -53,7 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the longest let that, times *ratio, is contained in p (`whole`: equals p), or NULL. */
+/* Returns the longest let whose value, times *ratio, equals p (if `whole`) or is a part of p; else NULL. */
 static const let_row *show_let(const show *s, const poly *p, bool whole, double *ratio) {
     let_row *best = NULL;
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
@@ -408,7 +408,7 @@ static void show_below(const show *s, const piece *p, double bottom) {
     fputs(s->style == SHOW_LATEX ? "}" : many ? ")" : "", s->out);
 }
 
-/* Prints 2*m*r*sin(a)/3, without the sign; a factor 1 is printed only if it stands alone. */
+/* Prints 2*m*r*sin(a)/3, without the sign. Prints the number 1 only if there is no other factor above the bar. */
 static void show_product(const show *s, const piece *p) {
     double top;
     double bottom;
@@ -640,7 +640,7 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         show_group(s, without, one, false);
         return;
     }
-    /* every term contains `shared`, but not in one power */
+    /* every term contains `shared`, so no terms can be split off */
     show_sum(s, p, (wave){NULL, 0, 0}, leading);
 }
 
@@ -733,7 +733,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
 }
 
-/* The product of a term's rates and accelerations, by which terms are collected. *highest: its most primes. */
+/* The product of a term's rates and accelerations, by which terms are collected. *highest: the highest order in it. */
 static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     const poly *key = poly_number(a, 1.0);
     *highest = 0;
@@ -751,7 +751,7 @@ static const poly *motion_of(algebra *a, const mono *m, int *highest) {
 typedef struct collected {
     const poly *key;
     const poly *terms;
-    int highest; /* most primes in the key */
+    int highest; /* order of the highest derivative in the key */
 } collected;
 
 static int collect(algebra *a, const poly *p, collected *groups) {
@@ -780,7 +780,7 @@ void show_poly(const show *s, const poly *p) {
     }
     collected *groups = alloc(p->count, sizeof *groups);
     const int count = collect(a, p, groups);
-    if (algebra_overflow(a)) { /* without products, print the terms as they are */
+    if (algebra_overflow(a)) { /* the groups are invalid: print the terms as they are */
         show_sum(s, p, (wave){NULL, 0, 0}, true);
     } else {
         bool leading = true;

@@ -47,10 +47,10 @@ void show_poly(const show *s, const poly *p);
 /* The product of the atoms common to all terms of p, each in its lowest power. */
 const poly *show_common(algebra *a, const poly *p);
 
-/* === one product for readers ================================================================== */
+/* === products ================================================================================= */
 
-/* A common factor of these coefficients: its numerator divides their numerators, its denominator their denominators.
- * With `whole`, the quotients are whole numbers. */
+/* Returns a common factor of the pieces' coefficients. For small fractions p / q, it is gcd(p) / gcd(q) or, with
+ * `whole`, gcd(p) / lcm(q): then the quotients are whole numbers. Otherwise, it is the smallest coefficient or 1. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
 /* Prints the sign between two factors. */
@@ -78,11 +78,11 @@ void show_grouped(const show *s, const poly *p);
  * `prefix`. Prints nothing without contacts. */
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
 
-/* Print the equation of motion of each coordinate, collected by second derivative; then the first-order form. */
+/* Print the equations. show_text() adds the first-order form; show_latex() adds the closed form if it is short. */
 void show_text(FILE *out, const equations *e);
 void show_latex(FILE *out, const equations *e);
 
-/* Prints the definitions of printed names, if any: `heading`, rows separated by `behind`, `footing`. */
+/* Defines the printed `let` names, if any: prints `heading`, the definitions separated by `behind`, and `footing`. */
 void show_lets_end(show *s, const char *heading, const char *behind, const char *footing);
 
 /* Cramer's rule for the highest derivatives: top[i] over *bottom. Returns false if the result is too long to read. */
