@@ -201,14 +201,15 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
     if (name == NULL) {
         return true;
     }
-    if (!ratio_count_each(every_s >= 0.0 ? every_s : EVERY_S, im->step, &r->every) &&
-        every_s >= 0.0) {
+    const bool is_whole = ratio_count_each(every_s >= 0.0 ? every_s : EVERY_S, im->step, &r->every);
+    if (!is_whole && every_s >= 0.0) {
         fprintf(
             stderr,
             "whirl pil: error: --every %.9g s is not a multiple of the step\nhint: use a multiple of the plant's step, %.9g s\n",
             every_s, im->step_s);
         return false;
     }
+    r->every = is_whole ? r->every : 1;
     r->file = atomic_file_open(name);
     if (r->file == NULL) {
         return false;

@@ -244,6 +244,11 @@ verdict $? "a broken tape is read up to its fault" "$scratch/err"
 exits 2 'this is not a tape of this version' --read "$build/pil_rig"
 exits 2 'this is not a tape of this version' --read /dev/zero
 exits 2 'cannot be read' --read "$scratch/none"
+for step in 70:0.07 700:0.7 1500:1.5 3000:3 5000:5 1000:1 250:1 2500:2.5 500:1; do # us, and ms from row to row
+    "$whirl" pil docs/plants/cart.whirl --firmware "$build/pil_cart" --until 21ms --step "${step%:*}us" --csv - 2>"$scratch/err" |
+        awk -F, -v at="${step#*:}" 'NR == 3 { row = 1e3 * $1 } END { exit !(row >= at * 0.999 && row <= at * 1.001) }'
+    verdict $? "without --every: with steps of ${step%:*} us, a row every ${step#*:} ms" "$scratch/err"
+done
 exits 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
 [ ! -c /dev/full ] || exits 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
 exits 2 'would overwrite .*pc.tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
