@@ -29,9 +29,9 @@ void uart_write(const char *bytes, unsigned count);
 /* Starts the free-running clock. */
 void timer_start(void);
 
-/* Vectors that a program may handle by a function on_NAME(); otherwise they are faults. This list has the core's
- * vectors, X(exception, NAME); BOARD_VECTOR_ROWS (board_data.h) has those of the chip's drivers, X(interrupt, NAME).
- * The four fault vectors are reserved: the motor must be off before any other code runs. */
+/* Exceptions of the core, X(exception, NAME). BOARD_VECTOR_ROWS (board_data.h) lists the interrupts of the chip's
+ * drivers, X(interrupt, NAME). A program may handle each by a function on_NAME(); without this function it is a fault.
+ * The four fault exceptions are not listed, because the motor must be off before any other code runs. */
 #define CORTEXM_VECTOR_ROWS(X) \
     X(2, nmi) \
     X(11, svcall) \
@@ -54,7 +54,7 @@ typedef struct board_fault_facts {
     uint32_t lr;
     uint32_t cfsr;
     uint32_t hfsr;
-    uint32_t address; /* address that did not respond, if cfsr marks it valid */
+    uint32_t address; /* address whose access failed, if cfsr marks it valid */
     uint32_t stack;   /* a board_stack_state */
 } board_fault_facts;
 
@@ -70,8 +70,8 @@ void board_fault_words(wh_text *text, const board_fault_facts *facts);
 /* Ends a program after a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts);
 
-/* Result of board_clock_start(), on chips with clocks to set up. Variables are not initialized when it runs: it uses
- * only board_clock_is, which the start-up code does not clear, and every wait is bounded. */
+/* Result of board_clock_start(). This function runs before the start-up code initializes the variables. It uses only
+ * board_clock_is, which the start-up code does not clear. Each of its waits is bounded. */
 typedef enum board_clock {
     BOARD_CLOCK_CRYSTAL,  /* the crystal of the board */
     BOARD_CLOCK_FALLBACK, /* the chip's own oscillator, because the crystal does not oscillate */

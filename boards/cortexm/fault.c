@@ -28,7 +28,7 @@ __attribute__((naked)) void board_fault(void) {
 CORTEXM_VECTOR_ROWS(WEAK_VECTOR)
 BOARD_VECTOR_ROWS(WEAK_VECTOR)
 
-/* Bit of CFSR on Armv8-M: the stack pointer would have passed MSPLIM, so it does not point to a frame. */
+/* Bit of CFSR on Armv8-M. If it is set, the stack has reached its limit MSPLIM, and SP does not point to a frame. */
 #define STACK_LIMIT_PASSED (1U << 20)
 
 #define CFSR_MEMORY_ADDRESS (1U << 7)

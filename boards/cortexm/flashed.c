@@ -1,4 +1,4 @@
-/* flashed.c: the end of a program on a real board: a stop with the motor off; after a fault a record and a restart. */
+/* flashed.c: end of a program on a real board. The motor is off. A fault is recorded, then the chip is reset. */
 #include "boards/board.h"
 #include "hal/motor.h"
 

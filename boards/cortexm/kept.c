@@ -32,7 +32,7 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks) {
     seal();
 }
 
-/* Writes only if there is a record to drop, so that a reset at nearly any instant finds the memory intact. */
+/* Writes nothing if the memory is valid and contains no fault, so that a reset seldom interrupts a write. */
 bool board_kept_take_fault(board_fault_record *record) {
     const bool held = fault_holds();
     const bool there = held && fault.facts.exception != 0;

@@ -21,10 +21,10 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks);
 /* Reads the record of a fault before this start. Returns false if there is none; a second call finds none. */
 bool board_kept_take_fault(board_fault_record *record);
 
-/* Drops the record, and the bytes of boards/shared/remembered.c, which are random after a power-on. */
+/* Drops the record and the bytes of boards/shared/remembered.c: after a power-on they are random or out of date. */
 void board_kept_forget(void);
 
-/* True if data from before the start exist, so that the start was no power-on. */
+/* True if valid data from before the start exist. They may also have survived a short power failure. */
 bool board_kept_anything(void);
 
 #endif

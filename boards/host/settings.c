@@ -1,4 +1,4 @@
-/* settings.c: hal/settings.h in a file, RIG_SETTINGS (default build/rig.settings), that is on disk after each write. */
+/* settings.c: hal/settings.h on the PC, in the file that RIG_SETTINGS names. A write ends when its data are on disk. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "hal/settings.h"

@@ -1,5 +1,5 @@
-/* terminal.c: a pseudo-terminal as a board's serial line, which any terminal program can open. RIG_TTY names a link to
- * it (default build/rig.tty), which is removed when the program ends, also after Ctrl-C. */
+/* terminal.c: a pseudo-terminal that replaces a board's serial line. Any terminal program can open it by the link
+ * RIG_TTY (default build/rig.tty). The link is removed when the program ends, also after Ctrl-C. */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
@@ -16,12 +16,12 @@
 #include "boards/board.h"
 
 static int line = -1;
-/* open, so that the line exists without a program at its other end */
+/* kept open, so that the line works even if no terminal program has opened it */
 static int other_end = -1;
 static const char *link_name;
 static char own_terminal[64];
 
-/* Async-signal-safe, for end_by(). A link to another terminal belongs to a newer program and stays. */
+/* Async-signal-safe, because end_by() calls it. If a newer program has replaced the link, the new link stays. */
 static void remove_link(void) {
     if (link_name != NULL) {
         char to[sizeof own_terminal];

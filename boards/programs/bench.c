@@ -65,8 +65,8 @@ static const struct {
     const char *name;
     wh_real (*one)(wh_real x);
     wh_real (*two)(wh_real x, wh_real y);
-    wh_real scale;  /* multiplies an argument from -1 to 1 */
-    wh_real offset; /* added to the product */
+    wh_real scale; /* the first argument is from offset - scale to offset + scale */
+    wh_real offset;
 } functions[] = {
     {"wh_exp", wh_exp, NULL, WH_R(20.0), WH_R(0.0)},
     {"wh_log", wh_log, NULL, WH_R(20.0), WH_R(20.01)},

@@ -12,7 +12,7 @@ static uint64_t memory[WH_SCENE_WORDS];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* Empty: the plugin counts the instructions between the calls. Unlike operands prevent a merger of the functions. */
+/* Empty: the plugin counts the instructions between the calls. The operands differ, so that GCC keeps two functions. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 

@@ -1,7 +1,7 @@
 /* firstlight.c: first light of a board: five scenes to their end, two seconds of the rig's control loop at rest, and
- * the console's self-test. Prints all results as one record (docs/firstlight.md), on real hardware again for each typed
- * line. The motor is never enabled: the image has no call of hal_motor_start() (boards/check_image.sh). */
-#define LINE_BYTES 200U /* the compiler and the self-test have long words */
+ * the console's self-test. Prints all results as one record (docs/firstlight.md). Real hardware prints it again after
+ * each line end received. The motor stays off: the image does not call hal_motor_start() (boards/check_image.sh). */
+#define LINE_BYTES 200U /* the compiler's version and the self-test's answer are long */
 #include "core/light_fields.h"
 
 #include "boards/board.h"
@@ -64,7 +64,7 @@ static void run_scene(const wh_scene *scene, run *to) {
 
 static uint32_t crc;
 
-/* Ends the line with "\n" in the CRC; the rig's hardware sends "\r\n". */
+/* Ends a line. The CRC always contains "\n", although the rig's hardware sends "\r\n". */
 static void end_line(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
@@ -131,7 +131,7 @@ static void say_stack(void) {
 }
 
 #if LIGHT_HARDWARE
-#define PERIODS 1000U /* two seconds: a rotor without pulses for 1.5 s is at rest */
+#define PERIODS 1000U /* two seconds, because rest is recognized after 1.5 s without pulses */
 
 typedef struct range {
     int32_t least;
@@ -222,7 +222,7 @@ static void say_load(void) {
     }
     end_line();
     line_begin("supply");
-    /* the same converter measures load and supply: a sample shows that it works */
+    /* One converter measures load and supply: the supply is known if there was a load sample. */
     if (rest.samples > 0) {
         wh_text_add_char(&line, ' ');
         wh_text_add_fixed(&line, seen.inputs.supply_V, 2);
@@ -291,7 +291,7 @@ static void say_rest(void) {
 
 static void say_record(void) {
     line_begin("");
-    end_line(); /* ends a line of noise before the record */
+    end_line(); /* the record begins on a new line, even after noise */
     crc = 0;
     line_begin(WH_LIGHT_BEGIN);
     end_line();

@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "hal/console.h"
 
-/* longest line, with its end */
+/* length of the longest line, including its line end */
 #ifndef LINE_BYTES
 #define LINE_BYTES 160U
 #endif

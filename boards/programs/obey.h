@@ -23,14 +23,14 @@ _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
                "one list of who asks for stop");
 
-/* Returns the source of the stop. After a press shorter than a control step, seen only as a cut, it is unknown. */
+/* Returns the source of the stop. It is known only as long as stop is pressed. */
 static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }
 
-/* Passes a command to the motor. *drives, false at first, is true if the last command drove the motor: only the first
- * of successive driving commands starts it. So if an interrupt has switched the motor off, or stop has prevented a
- * start, the motor restarts only after a command that does not drive. */
+/* Passes a command to the motor. *drives is true if the last command drove the motor, and false before the first one.
+ * Only the first of successive driving commands starts the motor. If an interrupt then switches the motor off, or stop
+ * prevents the start, the motor stays off until a driving command follows one that does not drive. */
 static inline void obey(const wh_rig_command *command, bool *drives) {
     if (command->way != WH_MOTOR_DRIVES) {
         hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);

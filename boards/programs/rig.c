@@ -122,7 +122,7 @@ static bool take_dials(wh_rig_config *config) {
 #elif RIG_DIALLED
 static bool take_dials(wh_rig_config *config) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
-        return true; /* after a reset the program gives no orders, and reports a trip at once */
+        return true; /* no wait for dials: after a reset, the program gives no orders and reports a trip at once */
     }
     if (!wait_for_dials()) {
         return false;

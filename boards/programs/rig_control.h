@@ -33,7 +33,7 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
-/* Enclose the work of a control step, without readings and outputs, for programs that count its instructions. */
+/* Enclose the computation of a control step, so that programs can measure it. Inputs and outputs are outside. */
 #if HAL_FRAMES
 #define STEP_BEGINS() hal_frames_step_begins()
 #define STEP_ENDS() hal_frames_step_ends()
@@ -51,7 +51,7 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, the same as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* Largest number of samples that a step takes, without a pulse (2) and with one (1): other samples wait for the next
+/* Largest numbers of samples that a step takes if it has no pulse, and if it has one. Other samples wait for the next
  * step. A small chip's build may set smaller numbers. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
@@ -72,8 +72,8 @@ static bool drives;              /* true if the last command drove the motor (ob
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* Takes at most two edges, and none after a leading one (a pulse): a storm of edges cannot delay the step. Others
-     * wait. If a step with a pulse reads no samples (RIG_SAMPLES_WITH_PULSE is 0), the next step takes no edge. */
+    /* A step takes at most two edges, and none after a leading one (a pulse), so that a storm of edges cannot delay it.
+     * It takes none if the last step had a pulse and so read no samples (RIG_SAMPLES_WITH_PULSE is 0). */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -133,8 +133,8 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Starts the hardware, and checks that its arithmetic is that of IEEE 754, with the compiler flags of the model's file.
- * Returns NULL, or the reason for a failure: then the motor is off. */
+/* Starts the hardware, and checks that OWN_ARITHMETIC is that of IEEE 754. Returns NULL, or the reason for a failure:
+ * then the motor is off. */
 static const char *why_not_started(void) {
     if (!hal_clock_start()) {
         return why_no_hardware();

@@ -9,10 +9,10 @@
 #include "hal/motor.h"
 #include "hal/slots.h"
 
-/* The observer's model: scene rig_fixed of core/models/eccentric.whirl, with the control step as step (mk/whirl.mk). */
+/* The observer's model: scene rig_fixed of core/models/eccentric.whirl. Its step is the control step (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
-/* wh_arithmetic() as compiled in the model's file; in this file, if there is no model */
+/* wh_arithmetic(), compiled with the flags of the model's file, or with those of this file if there is no model */
 #if WH_RIG_FEEDS
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else
