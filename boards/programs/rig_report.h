@@ -47,7 +47,7 @@ static inline void put_force(const char *name, float force_N) {
     put_value(name, force_N, 2, text.bytes);
 }
 
-/* Prints the half-width of the interval of the line above. */
+/* Prints the half-width of the interval around the value of the previous line. */
 static inline void put_interval(const char *name, float half, unsigned decimals, const char *unit) {
     char bytes[32];
     wh_text text;
@@ -82,7 +82,7 @@ static inline void put_turns(const wh_run *run) {
     put_value("  fastest minus slowest turn", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
-/* Prints a run's measurement, and the formula's force at a nominal speed. */
+/* Prints a run's measurement. Compares its force with the formula's (sum of m r w^2) at the nominal speed. */
 static inline void put_result(const wh_rig_config *config, const wh_rig_result *result,
                               float nominal_radps) {
     const float formula_N = config->measure.rotor.unbalance_kgm * nominal_radps * nominal_radps;
@@ -123,7 +123,7 @@ static inline void put_place(const char *name, const wh_swung *swung, unsigned s
     put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
 }
 
-/* Prints the sensors' positions that a free swing at the run's end has shown, if any. */
+/* If the run ended in a free swing, prints its outcome, and the sensors' positions if it has shown them. */
 static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;
@@ -137,7 +137,7 @@ static inline void put_swung(const wh_swung *swung) {
     }
 }
 
-/* Prints the carriage's values, and the formula's amplitude. */
+/* Prints the carriage's values, and the amplitude that the formula S/(M + m) gives. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;

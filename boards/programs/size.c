@@ -1,6 +1,6 @@
-/* size.c: the smallest firmware that steps one scene and computes its outputs. It is linked to measure its size, never
- * run. PRICE_SCENE is the scene's name (FIXED_SCENE for fixed point); the scene's header is included first. The memory
- * suffices for float and double, compensated or not. */
+/* size.c: the smallest firmware that steps one scene and computes its outputs. The build measures its size and
+ * never runs it. PRICE_SCENE is the scene's name (FIXED_SCENE if it is in fixed point). The compiler's option -include
+ * gives the scene's header. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 #include "core/scene.h"

@@ -12,7 +12,7 @@
 #include "rig_report.h"
 #include "rig_settings.h"
 
-/* bytes read from the console in a control step, at most; 23 arrive at 115,200 baud */
+/* largest number of bytes that a control step reads from the console; at 115,200 baud 23 arrive in a step */
 #define BYTES_A_STEP 32U
 
 static wh_station station;
@@ -37,7 +37,7 @@ static void tell_reset(void) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
         put("\r\n"
-            "# reset: "); /* the line feed ends a line in progress */
+            "# reset: "); /* first ends a line that the reset has cut */
         hal_console_write(words, count);
         put("\r\n");
     }

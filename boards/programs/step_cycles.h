@@ -43,7 +43,7 @@ static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_s
     return status;
 }
 
-/* Returns the median of at least one stored step. */
+/* Returns the median of the stored counts. At least one must be stored. */
 static inline uint32_t step_cycles_median(const step_cycles *c) {
     return c->sorted[(c->kept - 1U) / 2U];
 }

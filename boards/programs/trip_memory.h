@@ -9,7 +9,7 @@
 
 _Static_assert(WH_TRIP_RECORD_BYTES <= HAL_REMEMBER_BYTES, "it is remembered whole");
 
-/* Starts the rig: idle, or tripped as before the reset. *kept is a copy of the record that a reset would find. */
+/* Starts the rig: tripped if a trip's record has survived the reset, else idle. Copies that record to *kept. */
 static inline void trip_memory_start(wh_trip_record *kept, const wh_rig_config *config, wh_rig *rig,
                                      uint32_t now_ticks) {
     uint8_t bytes[HAL_REMEMBER_BYTES];

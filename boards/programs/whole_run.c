@@ -1,11 +1,12 @@
 /* whole_run.c: counts every step of a scene's run, because a few steps do not show the cost of steps with events.
  * Prints
  *
- *     run NAME STEPS       all steps were made; interval 0 is empty, and each later one is the largest of RUN_EVERY
+ *     run NAME STEPS       all steps were made
  *     stack NAME BYTES     deepest stack of the program during the run's steps
  *     failed NAME STATUS   a step failed
  *
- * The counter reports RUN_EVERY steps as one interval (count_plugin.c, every=): first RUN_EVERY empty ones. */
+ * The counter reports each RUN_EVERY steps as one interval with the instructions of the largest step (count_plugin.c,
+ * every=). Before them, interval 0 has RUN_EVERY empty measurements. */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 

@@ -1,9 +1,9 @@
-/* worst.c: the largest number of instructions of a step of a scene with contacts, over random states.
+/* worst.c: the largest number of instructions of a step over random states, for each scene with contacts.
  *
- * Every scene with contacts runs WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps the state is
- * randomized: any angles, rates times a factor from -2 to 2, inputs times a factor from -4 to 4, positions moved by up
- * to eight steps; the contacts' modes are determined again. The counter records the most instructions of a step, for each
- * scene and seed (count_plugin.c, every=WORST_STEPS). Prints the lines of bench.c, and before them
+ * The scene makes WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps the state is randomized: angles are
+ * arbitrary, rates are multiplied by -2 to 2, and positions move by at most eight steps. Inputs become -4 to 4 times
+ * their start value, and the contacts' modes are determined again. The counter reports the largest number for each
+ * scene and seed (count_plugin.c, every=WORST_STEPS). Prints the lines "count" of bench.c and, before those of a scene,
  *
  *     declared NAME EVALUATIONS SIGNALS    declared limits of evaluations in one step (contact.h) */
 #include "boards/programs/counted.h"

@@ -4,7 +4,7 @@
 
 void board_guard_stack(void) {
     const uint32_t locked = 0x80U;
-    /* the ones at the low end of the address give the size */
+    /* NAPOT: the number of 1 bits at the low end of pmpaddr0 gives the strip's size */
     const uint32_t power_of_two = 3U << 3;
     const uint32_t strip = (uint32_t)(uintptr_t)board_stack_guard;
     CSR_WRITE("pmpaddr0", strip >> 2 | (BOARD_STRIP_BYTES / 8U - 1U));

@@ -11,7 +11,7 @@
 #define CSR_WRITE(name, value) \
     __asm__ volatile("csrw " name ", %0" : : "r"((uint32_t)(value)) : "memory")
 
-/* Starts the console's device. May be called at any time, also again, and for a trap's report. */
+/* Starts the console's device. It may be called again: the report of a trap does this. */
 void uart_start(void);
 void uart_write(const char *bytes, unsigned count);
 

@@ -6,7 +6,7 @@
 void board_entry(void);
 _Noreturn void board_reset(void);
 
-/* The first code in flash: without relaxation to gp, which is never set. A plain jump would reach only 1 MB. */
+/* The first code in flash. norelax: relaxed code uses gp, which is never set. tail: a plain jump reaches only 1 MB. */
 __attribute__((naked, used, section(".vectors"))) void board_entry(void) {
     __asm__ volatile(".option norelax\n\t"
                      "la sp, board_stack_top\n\t"

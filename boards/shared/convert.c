@@ -1,4 +1,4 @@
-/* convert.c: 64-bit integers to float, to nearest, ties to even. The compiler calls these functions by name. The
+/* convert.c: 64-bit integers to float, rounded to nearest, ties to even. The compiler calls the functions by name. The
  * support library of RISC-V and Cortex-M0 would use double-precision arithmetic, which this firmware does not link. */
 #include <stdint.h>
 
@@ -26,7 +26,7 @@ float FROM_UNSIGNED(uint64_t number) {
     if (high == 0) {
         return (float)(uint32_t)number;
     }
-    /* 32 bits from the highest 1 on suffice: a float keeps 24. Lower bits only decide ties: one bit replaces them. */
+    /* A float keeps 24 bits, so 32 bits from the highest 1 suffice. The rest only decides ties: one bit replaces it. */
     const unsigned shift = 32U - (unsigned)__builtin_clz(high);
     const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
     const uint32_t lost = below != 0 ? 1U : 0U;

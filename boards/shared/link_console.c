@@ -1,5 +1,5 @@
-/* link_console.c: hal/link.h over the console of a real board. The program prints on the same line: a zero byte
- * separates this text from the next frame. The end of the simulator is not detected. */
+/* link_console.c: hal/link.h over the console of a real board. The program also prints text there, so a zero byte
+ * precedes each frame and ends the text. The board does not detect the end of the simulator. */
 #include "hal/link.h"
 
 #include "boards/board.h"

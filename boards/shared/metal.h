@@ -29,8 +29,7 @@ extern uint32_t board_fault_stack_top[];
 /* Protects the guard strip, if the chip can: accesses to it then fault (guard.c). The start-up code calls this once. */
 void board_guard_stack(void);
 
-/* Returns the number of words between two symbols of the linker script: C does not define their pointers'
- * difference. */
+/* Returns the number of words between two symbols of the linker script. C does not define their difference. */
 static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }

@@ -12,14 +12,14 @@
 
 /* as short as possible, because the CRC costs an 8-bit processor 150 cycles a byte */
 typedef struct remembered {
-    uint8_t sequence; /* the copies' numbers differ by one */
+    uint8_t sequence; /* one more than in the older copy, modulo 256 */
     uint8_t count;
     uint8_t bytes[HAL_REMEMBER_BYTES];
     uint32_t crc;
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-/* not in the copies, because every control step writes it */
+/* Not a member of `remembered`, because every control step writes it. */
 BOARD_KEPT static uint32_t kept_state;
 
 static uint32_t crc_of(const remembered *slot) {

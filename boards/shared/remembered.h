@@ -8,7 +8,7 @@
 /* Places a variable in memory that is never cleared or filled. */
 #define BOARD_KEPT __attribute__((section(".noinit")))
 
-/* Start value of the CRCs in that memory, so that their check refuses a memory of zeros. */
+/* Start value of the CRCs of BOARD_KEPT variables. */
 #define BOARD_KEPT_CRC_START 0x52494721U
 
 /* A barrier: the compiler moves no store to that memory across this call. */

@@ -7,7 +7,7 @@
 #include "core/text.h"
 
 typedef struct board_fault_when {
-    uint32_t ticks;  /* time of the fault; the board's clock restarts at each start */
+    uint32_t ticks;  /* time of the fault on the board's clock, which restarts at each start */
     uint32_t state;  /* last argument of hal_reset_mark() */
     uint32_t faults; /* number of faults since power-on, including this one */
 } board_fault_when;

@@ -1,4 +1,4 @@
-/* rig_time.c: hal/clock.h by board_ticks(). */
+/* rig_time.c: hal/clock.h, implemented with board_ticks(). */
 #include "rig_time.h"
 
 #include "boards/board.h"

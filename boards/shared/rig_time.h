@@ -1,4 +1,4 @@
-/* rig_time.h: hal/clock.h by board_ticks(), for boards whose clock also stamps the captures. */
+/* rig_time.h: hal/clock.h, implemented with board_ticks(), for boards whose clock also stamps the captures. */
 #ifndef BOARDS_SHARED_RIG_TIME_H
 #define BOARDS_SHARED_RIG_TIME_H
 

@@ -1,4 +1,4 @@
-/* stack.c: measures the used part of the stack (board.h): the part without the pattern. */
+/* stack.c: the used part of the stack (board.h). A pattern fills the free stack, and use overwrites the pattern. */
 #include "boards/shared/metal.h"
 
 #include "boards/board.h"

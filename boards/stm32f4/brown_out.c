@@ -1,5 +1,5 @@
-/* brown_out.c: sets the supply voltage below which the chip stays in reset (RM0090, 3.9.10 and 5.2.2) to 2.7 V, which
- * 168 MHz and the flash require. An option byte has the setting: it is written once in a chip's life. */
+/* brown_out.c: the supply voltage below which the chip stays in reset (RM0090, 3.9.10 and 5.2.2). It is 2.7 V, which
+ * 168 MHz and the flash require. An option byte keeps it, so the program writes it only once in a chip's life. */
 #include "stm32f4.h"
 
 void stm32f4_brown_out_start(void) {

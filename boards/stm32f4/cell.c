@@ -1,10 +1,10 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
- * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts after each half
- * of its memory: 64 pairs, 2 ms. A sample is the mean of 64 conversions, with the time stamp of their middle, so it has
- * no delay. A sample waits for the next mean, because the correction of a mean needs both neighbours (hal/averaged.h).
- * One count of the converter is 109 mN. With noise of half a count the mean resolves 1.7 mN; the unit of a sample is
- * 6.8 mN.
+ * Timer 3 starts 32,000 pairs of conversions per second: first the load, then the supply. DMA stores the pairs, and
+ * interrupts after every 64 (2 ms), which fill half of its memory. A sample is the mean of the 64 loads. Its time stamp
+ * is their middle, so it has no delay. A sample waits for the next mean, because the correction of a mean needs both
+ * neighbours (hal/averaged.h). One count of the converter is 109 mN. With noise of half a count the mean resolves
+ * 1.7 mN; the unit of a sample is 6.8 mN.
  *
  * Without force, the amplifier's output is half of the reference; near either end the amplifier is saturated. If all
  * counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. Leakage, and charge that
@@ -23,8 +23,8 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* Time from the middle of the samples to the interrupt: half of the pairs minus half of one pair, plus 5 us. The
- * conversions of a pair take 9 us, and the force is sampled in the first 4 us. */
+/* Time from the middle of a mean to its interrupt. From the first to the last of 64 pairs are 63 periods, so the middle
+ * is 31.5 periods before the last pair. The last pair takes 9 us, and its load is sampled after 4 us: 5 us more. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* highest clock of the converter (STM32F405's data sheet, table 67) */
@@ -32,10 +32,10 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 
 #define FULL 4095U
 #define MIDDLE 2048
-#define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 52 mV */
+#define RAIL (FULL / 64U)       /* within 51 mV of either end no amplifier is linear */
 #define OPEN_BELOW (FULL / 16U) /* an input below 0.2 V is not connected */
 
-/* Above this limit a conversion makes the mean of the supply invalid. */
+/* If one conversion of the supply exceeds this limit, the mean is invalid. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_V_PER_COUNT ((float)BOARD_SUPPLY_FULL_mV / 1000.0f / (float)FULL)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
@@ -56,7 +56,7 @@ static const stm32f4_ring samples = {&sample_counts, kept_samples, SAMPLES_KEPT,
 static volatile uint32_t supply_sum; /* UINT32_MAX: a conversion was above SUPPLY_END */
 
 static hal_load_sample last;
-static int32_t before_last; /* counts of the mean before the last one */
+static int32_t before_last; /* `raw` of the mean before `last` */
 static bool last_follows;   /* the last two means are successive */
 
 static void start_dma(void) {
@@ -72,7 +72,7 @@ static void start_dma(void) {
     reg_store(DMA2_S0CR, settings | DMA_CR_EN);
 }
 
-/* 84 clocks of 21 MHz for the sampling and 12 for the conversion: 4.6 us. At the fallback's 8 MHz: 12 us. */
+/* Sampling takes 84 clocks, and conversion 12: together 4.6 us at 21 MHz, or 12 us at the fallback clock's 8 MHz. */
 static inline void sample_for(unsigned input) {
     stm32f4_field(input < 10U ? ADC1_SMPR2 : ADC1_SMPR1, 3U, input % 10U, ADC_SMP_84);
 }
@@ -82,7 +82,7 @@ static void start_converter(void) {
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
-        /* after a reset the converter's clock is half of APB2's */
+        /* half of APB2's clock, which a reset selects, would be too fast */
         reg_store(ADC_CCR, ADC_CCR_ADCPRE_4);
     }
     sample_for(BOARD_CELL_INPUT);
@@ -114,7 +114,7 @@ static bool follows(const hal_load_sample *before, const hal_load_sample *sample
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* Delivers the last mean as a sample, corrected with `mean`, which follows it. */
+/* Delivers `last` as a sample, corrected with the mean before it and the new `mean`. Then `mean` becomes `last`. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {
@@ -129,7 +129,7 @@ static void hand_on(const hal_load_sample *mean) {
     last_follows = mean_follows;
 }
 
-/* Averages a half of DMA's memory. A sum of 64 counts has 18 bits; four units are one count of hal/loadcell.h. */
+/* Averages a half of DMA's memory. Four units of the sum are one count of hal/loadcell.h. */
 static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
     uint32_t supply = 0;
@@ -153,7 +153,7 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* DMA's position shows which half is complete, and since when. A late interrupt takes the newest half. */
+/* `laid` pairs are stored in DMA's memory. This shows which half was completed last, and how long ago. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

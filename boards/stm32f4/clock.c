@@ -13,8 +13,8 @@ _Static_assert(BOARD_CRYSTAL_HZ / BOARD_PLL_M * BOARD_PLL_N == PLL_OUT_Hz &&
 _Static_assert(BOARD_PLL_N >= 50U && BOARD_PLL_N <= 432U && BOARD_PLL_M >= 2U && BOARD_PLL_M <= 63U,
                "RM0090, 7.3.2");
 
-/* Longest waits, as numbers of polls of some ten cycles at 16 MHz. The chip's own oscillator starts in 4 us, a switch
- * takes a few clocks, the phase-locked loop 0.3 ms, a crystal some milliseconds. */
+/* Largest numbers of polls. A poll takes some ten cycles at 16 MHz. SOON suffices for the chip's own oscillator (4 us)
+ * and the phase-locked loop (0.3 ms), PATIENTLY for a crystal (some milliseconds). */
 #define SOON 2000U
 #define PATIENTLY 40000U
 
@@ -45,7 +45,7 @@ static bool to_own_oscillator(void) {
     reg_clear(RCC_CR, RCC_CR_PLLON | RCC_CR_CSSON);
     (void)stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEON);
-    /* the oscillator stops after six cycles of the crystal (7.3.1) */
+    /* HSEBYP can change only after the oscillator has stopped, which takes six cycles of the crystal (7.3.1) */
     (void)stm32f4_comes(RCC_CR, RCC_CR_HSERDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEBYP);
     reg_store(RCC_CFGR, 0);
@@ -77,7 +77,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, SOON)) {
         return fall_back();
     }
-    /* Five wait states before 168 MHz at 2.7 V (3.5.1). No prefetch, because revision A of the chip has a defect. */
+    /* 168 MHz at 2.7 V needs five wait states (3.5.1). Prefetch stays off, because it has a defect in revision A. */
     const uint32_t wait_states = 5U;
     reg_store(FLASH_ACR, FLASH_ACR_ICEN | FLASH_ACR_DCEN | wait_states);
     if (!stm32f4_comes(FLASH_ACR, FLASH_ACR_LATENCY, wait_states, SOON)) {

@@ -1,12 +1,12 @@
-/* motor.c: the drive stage. TIM1's channel 1 is a PWM of 20 kHz on its complementary output alone (RM0090, 17.3 and
- * table 94). The enable is on a pin; the break input receives both stop and the drive stage's fault.
+/* motor.c: the drive stage. TIM1's channel 1 is a PWM of 20 kHz. It uses only the complementary output (RM0090,
+ * 17.3 and table 94). Another pin enables the stage. The break input receives both stop and the drive stage's fault.
  *
  * The break input is active low, with a pull-down: a broken wire counts as pressed. A break, or a stopped crystal,
  * clears MOE without software: the output then has its idle level, low. MOE cannot be set while the break is active. A
- * lock-up of the core does not clear MOE on this chip; then the watchdog resets it.
+ * lock-up of the core does not clear MOE on this chip; the watchdog then resets the chip.
  *
- * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). An output could then stay high: other
- * families disable the outputs, but for the F4 this is not proved. So the watchdog keeps running in a halt. */
+ * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families then disable the outputs, but for
+ * the F4 this is not proved: an output could stay high. So the watchdog keeps running in a halt. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -17,13 +17,13 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole;        /* compare value at which the output is always on */
-static volatile bool driving; /* started and not yet off, also if stop keeps MOE clear */
+static volatile bool driving; /* from hal_motor_start() to hal_motor_off(), even if MOE is clear */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT);
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    /* a debugger sets this bit, which stops the watchdog in a halt and survives resets */
+    /* A debugger may have set this bit. It stops the watchdog in a halt, and resets do not clear it. */
     reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
@@ -32,7 +32,7 @@ void stm32f4_motor_start(void) {
     reg_store(TIM_PSC(TIM1), 0);
     reg_store(TIM_ARR(TIM1), whole - 1U);
     reg_store(TIM_CCR(TIM1, 1U), 0);
-    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: effective at once */
+    reg_store(TIM_CCMR(TIM1, 0U), TIM_CCMR_OC1M_PWM_1); /* no preload: stores act at once */
     reg_store(TIM_CCER(TIM1), TIM_CCER_CC1NE);
     reg_store(TIM_EGR(TIM1), TIM_EGR_UG);
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
@@ -41,7 +41,7 @@ void stm32f4_motor_start(void) {
     driving = false;
 }
 
-/* True if the hardware has cleared MOE since the start: permanent, because no hardware sets MOE again (AOE is 0). */
+/* True if MOE is clear although the motor was started. MOE stays clear, because no hardware sets it (AOE is 0). */
 static bool is_cut(void) { return driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0; }
 
 /* NaN and a missing supply give 0. */
@@ -57,7 +57,7 @@ unsigned hal_motor_start(void) {
     /* a hal_motor_off() in an interrupt waits until stm32f4_go_on() */
     const uint32_t before = stm32f4_hold();
     if (!driving) {
-        driving = true; /* even if stop keeps MOE clear: the motor then counts as cut */
+        driving = true; /* if stop prevents MOE, is_cut() is true */
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);
@@ -71,7 +71,7 @@ unsigned hal_motor_start(void) {
 /* Without MOE the voltage has no effect; a start sets it to 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* The first store clears the output, as after a fault (BOARD_SAFE_ROWS). BIF is cleared to show new presses of stop. */
+/* Clears MOE first, as the fault handler does (BOARD_SAFE_ROWS). BIF is cleared, because it prevents the next start. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);

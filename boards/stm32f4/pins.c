@@ -19,7 +19,7 @@ void stm32f4_pin_is(unsigned pin, unsigned what) {
     stm32f4_field(GPIO_MODER(port), 2U, number, what & 3U);
 }
 
-/* lower than the priority of faults, 0 */
+/* Faults have priority 0. A larger number is a lower priority. */
 #define PRIORITY 0x80U
 
 void stm32f4_interrupt(unsigned number) {

@@ -9,8 +9,8 @@
 static hal_reset cause;
 static board_fault_record fault;
 
-/* Every start also sets the pin's flag, so the other flags come first. Without a flag, as in an emulator, valid data
- * from before the start exclude a power-on. */
+/* The reset pin's flag distinguishes nothing, because every start sets it. If no flag is set, as in an emulator, the
+ * start was a power-on unless valid data from before exist. */
 static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
     if ((flags & (RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF)) != 0) {
         return HAL_RESET_WATCHDOG;
