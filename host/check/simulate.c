@@ -243,15 +243,14 @@ static void say_clamped(const simulation *sim) {
     }
 }
 
-/* Says why the run failed, on standard error and for --json. */
+/* Says why the run failed, on standard error and for --json: a failed step, undefined values, or both. */
 static void say_failure(simulation *sim, wh_status status) {
     size_t length;
     FILE *text = alloc_text(&sim->said, &length);
     if (status != WH_OK) {
         failure_say(text, status, sim->checks);
-    } else {
-        diags_flush(sim->undefined, text);
     }
+    diags_flush(sim->undefined, text);
     alloc_text_end(text);
     fputs(sim->said, stderr);
 }
@@ -260,7 +259,6 @@ static simulation_result conclude(simulation *sim, wh_status status, bool ended)
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
     if (status != WH_OK) { /* the failure of a step is reported instead of undefined energies */
-        say_failure(sim, status);
         diags_free(sim->undefined);
         sim->undefined = diags_new();
     } else if (sim->output < 0) {
@@ -271,8 +269,8 @@ static simulation_result conclude(simulation *sim, wh_status status, bool ended)
     say_saturated(sim);
     say_clamped(sim);
     const bool undefined = diags_count(sim->undefined) > 0;
-    if (undefined) {
-        say_failure(sim, WH_OK);
+    if (status != WH_OK || undefined) {
+        say_failure(sim, status);
     }
     const books *b = sim->checks->books;
     if (status == WH_OK && b != NULL && b->undefined &&

@@ -280,24 +280,32 @@ TEST(verdict, json_of_a_title) {
     model_drop();
 }
 
-/* The JSON text of a failed run must have the reason that is on standard error. Other runs must have no reason. */
+/* The JSON text of a failed run must have the reason that comes first on standard error, and all hints. Other runs must
+ * have no reason. In every second run an output is undefined from some time on; the run may fail later. */
 TEST(verdict, json_of_failures) {
     dice d = dice_of("json_failed", 29112026);
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 24; i++) {
         static const char *const ways[] = {
             "V = -%.3g [N/m^3]*x^4", "V = %.3g [J]*sqrt(1 - x/(1 [m]))", "V = %.3g [N/m]*x^2"};
         const bool fails = i % 3 != 2;
         char energy[80];
         said what;
         snprintf(energy, sizeof energy, ways[i % 3], dice_between(&d, 50.0, 90.0)); // NOLINT
-        char *text = alloc_words("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n%s\n"
+        char *text = alloc_words("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n%s\n%s"
                                  "scene s { start x = 0.5 [m], x' = 4 [m/s]; step 1 [ms]; "
                                  "until 2 [s] }\n",
-                                 energy);
-        COMMAND_SAY(command_run, &what, model_keep(text), "--json");
+                                 energy, i % 2 == 0 ? "" : "output r [m] = sqrt(1 [m^2] - x^2)\n");
+        COMMAND_SAY(command_run, &what, model_keep(text), "--json", "--csv", "/dev/null");
         const char *error = value_at(&what, "error");
         TEST_ASSERT_EQUAL_INT_MESSAGE(fails, strcmp(error, "null") != 0, energy);
-        TEST_ASSERT_TRUE(!fails || (what.status == 1 && strstr(what.err, error) != NULL));
+        const char *first = strstr(what.err, "error: ");
+        TEST_ASSERT_TRUE(!fails || (what.status == 1 && first != NULL &&
+                                    strstr(what.err, error) == first + strlen("error: ")));
+        int hints = 0;
+        for (const char *at = what.err; (at = strstr(at, "hint: ")) != NULL; at++) {
+            hints++;
+        }
+        TEST_ASSERT_EQUAL_INT_MESSAGE(hints, json_length(what.out, "hints"), what.err);
         model_drop();
         free(text);
     }
