@@ -27,7 +27,7 @@
     "Whirl computes the same bits everywhere, and fast-math changes them: compile this file without -ffast-math, -Ofast, -funsafe-math-optimizations and the options that these include."
 #endif
 
-/* 16 and 32 are allowed: types smaller than float are then computed in their own precision. */
+/* Methods 16 and 32 are allowed: they, too, compute float in the precision of float. */
 #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16 && \
     __FLT_EVAL_METHOD__ != 32 && \
     !(WH_DOUBLE && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 64))
@@ -58,7 +58,7 @@ typedef float wh_real;
 #define WH_NAME(name) name
 #endif
 
-/* For macros in C and C++, without an old-style cast in C++. */
+/* Converts x to size_t without an old-style cast in C++. */
 #ifdef __cplusplus
 #define WH_SIZE(x) static_cast<size_t>(x)
 #else
@@ -85,15 +85,14 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
-/* 1 on chips that pass floats in registers: rare paths are then calls into scene.c and angle.c, to save flash. */
+/* 1 if the chip passes floats in registers: rare paths then call functions of scene.c and angle.c, to save flash. */
 #if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_MULTI_STEP) && WH_MULTI_STEP)
 #define WH_REALS_IN_REGISTERS 1
 #else
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* WH_CALLED: not inlined if flash is scarcer than time (-DWH_SMALL=1), because compilers underestimate the flash of
- * inlined copies. WH_SHARED: the same for a function in a header, which is otherwise inlined. */
+/* -DWH_SMALL=1 saves flash: functions marked WH_CALLED, or WH_SHARED in a header, are then not inlined. */
 #ifndef WH_SMALL
 #define WH_SMALL 0
 #endif

@@ -20,8 +20,8 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
 
 #else
 
-/* 2^32 per turn: whole turns in the high half, the phase in the low half. The count of turns wraps at 2^31 (50 days of
- * half a turn per millisecond, twelve years at 330 rpm). The phase, its sine and its cosine stay right. */
+/* 2^32 per turn: whole turns in the high half, the phase in the low half. The count of turns wraps at 2^31
+ * (after twelve years at 330 rpm), which does not change the phase. */
 typedef int64_t wh_angle;
 typedef uint32_t wh_phase; /* 2^32 per turn */
 typedef struct wh_factor { /* the number whole + part/2^64, modulo 2^32 */
@@ -70,8 +70,7 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 #endif
 
 #if !WH_DOUBLE
-/* Returns the whole number nearest to `steps`, |steps| < 2^31, ties to even. If steps often end in one half, ties away
- * from zero would make the angle drift by a quarter of a unit per step. */
+/* Returns the integer nearest to `steps`, |steps| < 2^31. Ties go to even: ties away from zero make angles drift. */
 WH_INLINE int32_t wh_whole(float steps) {
 #ifdef WH_ROUND
     int32_t result;
@@ -81,7 +80,7 @@ WH_INLINE int32_t wh_whole(float steps) {
     uint32_t bits;
     __builtin_memcpy(&bits, &steps, sizeof bits);
     const uint32_t digits = (bits & 0x7fffffU) | 0x800000U;
-    const int below = 150 - (int)((bits >> 23) & 0xffU); /* binary digits after the point */
+    const int below = 150 - (int)((bits >> 23) & 0xffU); /* number of fractional bits in digits */
     uint32_t size = 0;
     if (below <= 0) {
         size = digits << -below;
@@ -101,8 +100,8 @@ WH_INLINE int32_t wh_half_whole(float steps) {
 }
 #endif
 
-/* Sets *moved to `phase` moved by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the nearest
- * unit. If `steps` is half a turn or more, or NaN, returns false without setting *moved: the step must be refused. */
+/* Sets *moved to phase + steps, in phase units (radians * WH_PHASE_PER_RAD). The float build rounds to the nearest
+ * unit. If |steps| is half a turn or more, or NaN, returns false without setting *moved: the step must be refused. */
 WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -128,7 +127,7 @@ WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved
     return true;
 }
 
-/* Returns the angle with this phase that is less than half a turn from `angle`, for example at a stage of a step. */
+/* Returns the angle that has this phase and is at most half a turn from `angle`. */
 WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
 #if WH_DOUBLE
     (void)angle;

@@ -1,11 +1,11 @@
-/* two_part.h: constants as sums of two reals. Part of step.h. A step of 1 ms stored as one float has a relative error
- * of 4.7e-8. Compensated sums cannot remove this error, because it is the same in every step. */
+/* two_part.h: constants as sums of two reals. Part of step.h. One float is not enough: it stores 1 ms with a relative
+ * error of 4.7e-8. This error is the same in every step, so compensated sums cannot remove it. */
 #ifndef WH_TWO_PART_H
 #define WH_TWO_PART_H
 
 #include "turn.h"
 
-/* The number high + low. low is below half a unit in the last place of high. */
+/* The number high + low. low corrects the round-off of high. */
 typedef struct wh_two_part {
     wh_real high;
     wh_real low;

@@ -51,7 +51,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
      WH_R(5e-4))
 #define WH_RIG_INERTIA_KGM2 WH_RIG_INERTIA_AT_KGM2(WH_RIG_DISC_RADIUS_M)
 
-/* Torque at standstill, and speed without load, at rated voltage. The torque falls linearly between them. */
+/* At rated voltage, the torque falls linearly from WH_RIG_STALL_NM at standstill to 0 at WH_RIG_NO_LOAD_RADPS. */
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 

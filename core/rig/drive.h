@@ -24,8 +24,8 @@ typedef struct wh_drive {
 /* Sets target and set-point to the present speed. The integral becomes `volts`, so that the voltage does not jump. */
 void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);
 
-/* Does one control step of step_s seconds: moves the set-point towards the target and returns the new voltage, 0 to
- * most_V; most_V >= 0.
+/* Does one control step of step_s seconds: moves the set-point towards the target. Returns the new voltage, which is
+ * from 0 to most_V. most_V must be >= 0.
  *
  * The integral stays constant while the voltage is at a limit and the error would drive it further (conditional
  * integration: Astrom & Hagglund, Advanced PID Control, section 3.5). */

@@ -79,10 +79,10 @@ static bool advance(wh_swing *swing) {
 
 #define PASSES 12U
 #define SOFT_PASSES 6U
-/* From this pass on, pulses with a large residual are skipped. In earlier passes they make take() return false. */
+/* From this pass on, a large residual does not end the forward integration. */
 #define SURE_PASSES SOFT_PASSES
 
-/* Returns q at a pulse of `sensor` (0: the arms hang). `lead` is 0 if the rotor turns forwards, else 2 lead_rad. */
+/* Returns the angle q at a pulse of `sensor`. `lead` is 0 if the rotor turns forwards, else 2 lead_rad. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->pulse_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
@@ -130,14 +130,13 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Least amplitude: in rad, and as a multiple of x[WH_FREE_FRICTION]/x[WH_FREE_GRAVITY]. Below either limit, friction
- * stops the rotor within a swing or two. */
+/* A pass uses no pulses after the amplitude falls below SLOW_RAD, or below SLOW_FRICTIONS times friction/gravity. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
 #define FAR_RAD WH_R(0.5)
 
-/* Adds the pulse that the integration has reached. Returns false if the integration cannot go on in its direction. */
+/* Uses the pulse that the integration has reached. Returns false if it is the last in this direction of time. */
 static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const wh_free_rotor *way = &swing->way;
     const unsigned sensor = swing->kept_sensor[swing->at];
@@ -323,7 +322,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
         before = -rate / slowed;
         after = h - before;
         ratio = (pulled + sign * cause[WH_FREE_FRICTION]) / slowed;
-        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* negative: the rotor stays at rest */
+        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* otherwise friction holds the rotor */
         rotor->rate_radps = ratio * slowed * after;
     }
     const wh_real both = ratio * before + after;
@@ -368,7 +367,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Least pivot. Exact pivots are at least 1, because of the prior, but round-off in a large entry may lose this 1. */
+/* Exact pivots are at least 1, because of the prior. Round-off can make them smaller. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {
@@ -405,7 +404,7 @@ void wh_normal_solve(wh_normal *normal) {
     }
 }
 
-/* The variance is a diagonal entry of the inverse matrix: the squared length of L^-1 times a unit vector. */
+/* The variance of an unknown is the squared length of its column of L^-1. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which) {
     wh_real y[N] = {WH_R(0.0)};
     wh_real sum = WH_R(0.0);

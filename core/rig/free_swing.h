@@ -37,7 +37,7 @@ WH_C_BEGIN
 #define WH_NORMAL_UNKNOWNS 7
 
 typedef struct wh_normal {
-    wh_real matrix[WH_NORMAL_UNKNOWNS][WH_NORMAL_UNKNOWNS]; /* lower triangle, then its factor */
+    wh_real matrix[WH_NORMAL_UNKNOWNS][WH_NORMAL_UNKNOWNS]; /* lower triangle, later Cholesky's L */
     wh_real right[WH_NORMAL_UNKNOWNS];                      /* right side, then the solution */
     wh_real misfit; /* sum of squared residuals over their variances, at the guess */
 } wh_normal;
@@ -76,7 +76,7 @@ typedef struct wh_free_rotor {
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
-/* Does a step of h seconds, much shorter than a swing, backwards if h < 0. Of cause[], only g, f and c are read. */
+/* Does a step of h seconds: backwards if h < 0, and much shorter than a swing. Reads only g, f and c of cause[]. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
 /* Wraps an angle into -pi ... pi by at most one turn; returns 0 for larger angles and NaN. */
@@ -95,8 +95,7 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 #define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
 #define WH_SWING_LAST 10U   /* number of stored pulse times of sensor 1 */
 
-/* Pieces of the work, one control step each. Only WH_SWING_GOES takes several: it integrates up to a pulse and uses
- * it. WH_SWING_PASSES begins a pass. */
+/* Pieces of work. WH_SWING_GOES integrates a pass in many control steps; each other piece takes one. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
     WH_SWING_FACTORS,
@@ -127,10 +126,9 @@ typedef struct wh_swing_config {
     wh_real most_rad;  /* largest distance of a sensor from its nominal position, at 95 % */
     wh_real jitter_s;  /* standard deviation of the pulse times */
     wh_real rough_rad; /* further standard deviation of a pulse's angle: a coupling's twist etc. */
-    /* Calibration uncertainty, at 95 %: errors of slot and lead, and a friction that depends on the direction. */
-    wh_real floor_rad;
-    wh_real wide_rad;      /* largest half_rad[0] of a useful result */
-    wh_real off_rad;       /* a result is doubtful if |place_rad[0]| - half_rad[0] exceeds this */
+    wh_real floor_rad; /* calibration uncertainty, 95 %: slot, lead, direction-dependent friction */
+    wh_real wide_rad;  /* largest half_rad[0] of a useful result */
+    wh_real off_rad;   /* a result is doubtful if |place_rad[0]| - half_rad[0] exceeds this */
     unsigned swings_least; /* least number of half swings */
 } wh_swing_config;
 
@@ -143,27 +141,27 @@ typedef struct wh_swung {
 
 typedef struct wh_swing {
     wh_swung result;
-    bool free; /* the motor's leads have been open since the last step */
+    bool free; /* argument `swings` of the last wh_swing_step() */
     bool any;
     bool forward; /* the rotor turned forwards at the last pulse */
     uint8_t sensor;
     bool swings; /* the rotor has passed sensor 1 backwards */
     wh_swing_piece piece;
     unsigned first;  /* index in kept_ticks of the first backward pulse of sensor 1 */
-    unsigned passed; /* number of sensor 1's pulses from that one on, stored or not */
+    unsigned passed; /* number of sensor 1's pulses from the first backward one on, stored or not */
     unsigned kept;
     unsigned start; /* number of failed guesses */
     unsigned pass;
     unsigned at;     /* index of the next pulse */
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* pulses not used in this pass: too far from the predicted angle */
-    /* Pulses used of each sensor: those of sensor 1 alone would also fit the mirror image of the swing. */
+    /* Pulses used, by sensor. A result needs sensor 2: sensor 1's pulses also fit the swing's mirror image. */
     unsigned fits_of[WH_RIG_SENSORS];
     uint32_t ticks;
     wh_real soft_rad2;                  /* additional variance of each pulse */
     wh_free_rotor way;                  /* the rotor at the time `ticks` of a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS]; /* q minus sensor 1's position, q', g, f, c, both positions */
+    wh_real x[WH_NORMAL_UNKNOWNS]; /* unknowns: q - position 1, q', g, f, c, positions 1 and 2 */
     wh_real guess[WH_NORMAL_UNKNOWNS];
     wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];
@@ -191,9 +189,9 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call this in every control step. While wh_swing_works(), each step at rest does a bounded part of the work. `swings`:
- * the motor's leads are open after a run. They must open while the rotor still turns forwards. `rests`: the rotor is at
- * rest. When `swings` becomes false, it must be at rest, or else the result is WH_SWING_NOT_FREE. */
+/* Call this in every control step. `swings`: the motor's leads are open after a run. They must open while the rotor
+ * still turns forwards. `rests`: the rotor is at rest. If `swings` becomes false while `rests` is false, the result is
+ * WH_SWING_NOT_FREE. While wh_swing_works(), each step at rest does a bounded part of the work. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 

@@ -35,14 +35,13 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 /* Duration of a turn at 1,000 rpm. Pulses of one sensor that come sooner are ignored: 36 V give at most 900 rpm. */
 #define BOUNCE_TICKS 60000U
 #define LONGER WH_R(1.02) /* least ratio of a turn's duration to that of the turn before */
-#define FASTER WH_R(1.01) /* least first_ticks/turn_ticks of wh_off.of[] for WH_TRIP_RUNS_ON */
-#define ALTERNATE_PAIR 4U /* least wh_off.alternate that shows two turns of a sensor */
-#define ALTERNATE_RISE 6U /* least wh_off.alternate that shows three turns of a sensor */
-#define ALONE_PAIR 2U     /* least wh_off.alone that shows two turns of the sensor */
+#define FASTER WH_R(1.01) /* WH_TRIP_RUNS_ON needs first_ticks/turn_ticks above this */
+#define ALTERNATE_PAIR 4U /* value of wh_off.alternate after two turns */
+#define ALTERNATE_RISE 6U /* value of wh_off.alternate after three turns */
+#define ALONE_PAIR 2U     /* value of wh_off.alone after two turns */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-/* Least wh_off.alone for over-speed. If a rotor hangs with its slot at a sensor, jitter makes fewer pulses. */
-#define ALONE_SURE 6U
+#define ALONE_SURE 6U /* least wh_off.alone for over-speed: jitter at rest gives fewer pulses */
 
 static uint8_t one_more(uint8_t count) {
     return (uint8_t)(count < ALONE_SURE ? count + 1U : count);
