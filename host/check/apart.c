@@ -13,9 +13,9 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A nonzero value of a hold's expression is an error if it is below OFF_MOST * terms(). A larger value is intended. */
+/* A hold's expression has an error if its |value| is nonzero and below OFF_MOST * terms(). A larger one is intended. */
 #define OFF_MOST 0.5
-/* The holds' conditions are evaluated this part of a step after the start, because they may become false at once. */
+/* A hold's condition may become false just after the start, so it is evaluated SOON steps later. */
 #define SOON 1e-6
 
 typedef struct apart {
@@ -24,8 +24,8 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* indices in im->contact[] of the holds that are active at the start */
     int holds;
-    bool vanishes[HOLDS]; /* has_zero() returned true; it is false for a distance */
-    bool closes;          /* some hold has an error below OFF_MOST */
+    bool vanishes[HOLDS]; /* result of has_zero() */
+    bool closes;          /* at least one hold has an error */
     double x[2 * N];      /* [2 n] positions, then rates */
 } apart;
 
@@ -46,7 +46,7 @@ static double along(const apart *a, int h, const double *x) {
     return sum;
 }
 
-/* Scale of a hold: the sum of |row[i] x[i]|. If `places`, x are positions (an angle counts as 1 rad), else rates. */
+/* Sum of |row[i] x[i]|. If x has positions (`places`), each angle counts as 1 rad. */
 static double terms(const apart *a, int h, const double *x, bool places) {
     double sum = 0.0;
     for (int i = 0; i < a->n; i++) {
@@ -55,8 +55,7 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* Returns the value of a curved hold's expression if it is an error, else 0. If any hold has an error below OFF_MOST,
- * larger values of other holds are errors, too, because all holds close one linkage. */
+/* Returns the value of a curved hold's expression if it is an error, else 0. If a->closes, OFF_MOST does not apply. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -67,7 +66,7 @@ static double off_zero(const apart *a, int h) {
     return is ? value : 0.0;
 }
 
-/* Sets a->x to from + share * row, and returns the hold's expression there. */
+/* Sets a->x to from + share * row, and returns the hold's expression at this point. */
 static double value_at(apart *a, int h, const double *from, const double *row, double share) {
     for (int i = 0; i < a->n; i++) {
         a->x[i] = from[i] + share * row[i];
@@ -186,7 +185,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     return false;
 }
 
-/* An impulse that stops the holds' rates w removes the energy 1/2 w (J M^-1 J^T)^-1 w. NaN: holds are redundant. */
+/* Energy removed by the impulse that stops the holds' rates w: 1/2 w (J M^-1 J^T)^-1 w. NaN if holds are redundant. */
 static double lost_J(const apart *a) {
     double matrix[HOLDS * (HOLDS + 1)];
     const int n = a->holds;

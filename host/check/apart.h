@@ -10,8 +10,8 @@
 /* A hold's error or rate is round-off if it is at most APART_LEAST times the sum of its terms' magnitudes. */
 #define APART_LEAST 1e-6
 
-/* Returns the largest error or rate of a hold, relative to the sum of its terms' magnitudes. Unless `out` is NULL,
- * prints warnings that begin with `who`, such as "whirl run". If `who` is NULL, prints only the first one's text. */
+/* Returns the largest error or rate of a hold, relative to the sum of its terms' magnitudes. Prints nothing if
+ * `out` is NULL. `who` begins each warning, as in "whirl run". If it is NULL, only the text of the first is printed. */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

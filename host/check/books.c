@@ -85,7 +85,7 @@ static void evaluate_now(const books *b, const double *state) {
     }
 }
 
-/* The energy whose balance is checked. `value`: the results of the books list, or their error bounds. */
+/* Returns the checked energy if `value` is b->value, or the bound on its round-off if `value` is b->off. */
 static double energy_of(const image *im, const double *value) {
     const double *entry = value + im->count;
     return im->has_integral ? entry[BOOK_MOMENTA + im->count]
@@ -121,7 +121,7 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
     for (int i = 0; i < im->angles + im->reals; i++) {
         const state_rounding rounding = rounding_of_component(im, kind, run, i, b->state[i]);
         const component c = image_component(im, i);
-        /* a rate that never changed, such as a clock's, was never rounded */
+        /* a constant rate has no round-off */
         const spread *rate = &b->rate[c.unknown];
         const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
         if (rounding.change != 0.0 && !still) {
@@ -135,8 +135,7 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
     return isfinite(sum) ? sum : 0.0;
 }
 
-/* Energy change of a step by the round-off of its accelerations and powers. off[] also includes the round-off of forces
- * that cancel each other. */
+/* Energy error of one step by the round-off of accelerations, input power and loss power. */
 static double step_rounding_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     const double *entry = b->value + im->count;
@@ -152,8 +151,7 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
-/* Energy that a step's ledger entries may lose to underflow, in float with contacts. A value below FLOAT_LEAST has the
- * same absolute round-off as FLOAT_LEAST. In the worst case it always has the same sign. */
+/* Energy that the ledger may lose to underflow in one step. Zero unless the run is in float and has contacts. */
 static double step_lost_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     if (im->contacts == 0 || kind != &engine_float) {
@@ -174,7 +172,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Updates terms[]. A momentum has the term rateless[] and, for each rate, its change when this rate is set to 0. */
+/* Updates terms[]. Each rate contributes the change of the momentum if only this rate is set to 0. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double state[3 * IMAGE_COMPONENTS_MAX];
@@ -216,8 +214,7 @@ double books_rounding_J(books *b, const engine_kind *kind, const void *run) {
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* Error bound of the work of two steps: the difference between Simpson's and the trapezoidal rule if the power is
- * smooth, otherwise half a step times the changes of the power in both steps. */
+/* Error bound of Simpson's rule for two steps: the difference from the trapezoidal rule if the power is smooth. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
@@ -246,7 +243,7 @@ static void add_work(books *b, const double power_W[2]) {
 }
 
 double books_rule_J(const books *b) {
-    const bool is_even = b->entries % 2 == 1; /* the first entry is the start */
+    const bool is_even = b->entries % 2 == 1; /* entries = steps + 1 */
     return is_even ? b->rule_J : b->entries > 2 ? b->rule_J + b->pair_J : (double)INFINITY;
 }
 
@@ -272,8 +269,7 @@ static void take_rateless(books *b) {
     }
 }
 
-/* Is a rateless[] nonzero at one of three test states? Not tested if a coordinate is recovered from its momentum,
- * because such a coordinate has no rate to reverse. */
+/* Is any rateless[i] nonzero at a test state? Returns false if a coordinate is recovered from its momentum. */
 static bool find_rateless(books *b) {
     const image *im = b->image;
     double state[3 * IMAGE_COMPONENTS_MAX];

@@ -24,7 +24,7 @@ typedef struct books {
     double *momentum;     /* [count] at the start of the run */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
-    double *terms;        /* [count] largest sampled sum of the magnitudes of a momentum's terms */
+    double *terms;        /* [count] scale of a momentum: its largest sampled sum of |term| */
     double state[3 * IMAGE_COMPONENTS_MAX]; /* now: angles, then reals */
     double kinetic_J[2];                    /* start, now */
     double moving_J[2];                     /* kinetic_J without terms of odd order in the rates */
@@ -33,18 +33,18 @@ typedef struct books {
     double input_J;       /* work of the inputs since the start */
     double loss_J;        /* losses since the start */
     double power_W[2][2]; /* [0][] after even, [1][] after odd steps; [][0] input, [][1] loss */
-    spread kinetic;       /* of the values of moving_J[1] */
+    spread kinetic;       /* series of moving_J[1] */
     spread stored;
-    spread *rate; /* [count] */
-    spread *push; /* [count] momenta without rateless[] */
-    bool *frame;  /* [count] part of a conserved sum, so the mean depends on the reference frame */
+    spread *rate;       /* [count] */
+    spread *push;       /* [count] momenta without rateless[] */
+    bool *frame;        /* [count] in a conserved sum: the mean depends on the reference frame */
     double *rateless;   /* [count] part of a momentum that reversing all rates does not change */
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], divided by the unit round-off */
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */
     double computing_J; /* largest sampled round-off of the evaluation of the energy */
-    double lost_J;      /* largest sampled energy loss of a step's ledger by underflow */
+    double lost_J;      /* largest sampled energy that the ledger loses to underflow in one step */
     double rule_J;      /* error bound of the integration rule, over the whole run */
     double pair_J;      /* largest error bound of one pair of steps */
     double kept_J;      /* residual at the last even step */
@@ -69,11 +69,11 @@ void books_enter(books *b, const engine_kind *kind, const void *run);
 double books_left_J(const books *b);
 /* Root mean square of a momentum over the run, without its rateless[] part, and without its mean if frame[] is set. */
 double books_momentum(const books *b, int unknown);
-/* The largest swing of T, of V, and of each (rate * books_momentum() / 2). Swing: range of a sine of equal variance. */
+/* Largest swing of T, of V, or of a rate times books_momentum() / 2. A swing is sqrt(8) standard deviations. */
 double books_swing_J(const books *b);
-/* Largest sampled energy change by the round-off of one step in a run of this kind. Updates computing_J and lost_J. */
+/* Samples rounding_J, computing_J and lost_J at the present state. Returns rounding_J plus the round-off of size_J. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run);
-/* Error bound of Simpson's rule. After an odd number of steps, pair_J bounds the last step. One step: infinite. */
+/* Error bound of the work since the start, from Simpson's rule; J. It is infinite after only one step. */
 double books_rule_J(const books *b);
 
 #endif

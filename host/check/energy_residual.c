@@ -33,7 +33,7 @@ typedef struct kept_entry {
 typedef struct kept_account {
     kept_entry *entry; /* [entries] of statements, then inputs, then contacts, then GIVER_STEPS */
     int entries;
-    double left; /* residual from the core, in the run's number type */
+    double left; /* residual of the account, computed by the core; SI */
 } kept_account;
 
 /* Account 0 is the energy's; account k > 0 is the momentum of im->ledger.unknown[k]. The scene must have a ledger. All
@@ -72,7 +72,7 @@ static void kept_account_free(kept_account *k) { free(k->entry); }
 
 /* === the energy residual ======================================================================= */
 
-/* Allowance for N steps: ROUNDINGS * sqrt(N) times the round-off of one step; at least N times if N <= 1000. */
+/* The allowance for N steps is ROUNDINGS * sqrt(N) times the round-off of one step. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
@@ -108,8 +108,7 @@ static void enter_given_back(const image *im, const engine_kind *kind, const voi
     made->left_J = fabs(lost_J) >= fabs(made->left_J) ? lost_J : made->left_J;
 }
 
-/* With contacts the entries come from the run's ledger: the balance (books.h) omits contact forces, and Simpson's rule
- * fails across an impact. The levels always come from the balance, in double. */
+/* With contacts the entries come from the run's ledger, because the balance of books.h omits contact forces. */
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run) {
     energy_residual made = {.jump_s = -1.0};
     if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {

@@ -21,7 +21,8 @@
 
 typedef struct energy_residual {
     bool known; /* false: no energies, energies that are not finite, or contacts without a ledger */
-    double inputs_J; /* these three: work since the start; negative if it removes energy */
+    double
+        inputs_J; /* this, losses_J and contacts_J: work since the start; below 0 if it removes energy */
     double losses_J;
     double contacts_J;
     double left_J;     /* residual, signed */
@@ -39,12 +40,12 @@ typedef struct energy_residual {
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run);
 /* Is the residual above its round-off, and the ratio above the limit? False if the residual is unknown. */
 bool energy_residual_lost(const energy_residual *b, double limit);
-/* Prints the summary's line; nothing if the residual is unknown. */
+/* Prints the line of a run's summary about the residual. Prints nothing if the residual is unknown. */
 void energy_residual_print(FILE *out, const energy_residual *b);
 
 /* === the books in words ========================================================================== */
 
-/* Prints the entries of the energy balance by source, and the conserved momenta. */
+/* Prints the energy balance with one entry each for inputs, losses and contacts. Also prints the conserved momenta. */
 void books_print(FILE *out, const books *b, const energy_residual *balance);
 
 /* Prints the energy and momentum balances by statement: entries from the ledger, start and end values from `b`. */

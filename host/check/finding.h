@@ -26,8 +26,8 @@ typedef enum finding_id {
  * notes alone they end with 0. run_checks.c reports FINDING_MASS as a note if its value is small. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
-/* --strict: with STRICT_OFF the exit status stays 0. With STRICT_FINDINGS it is 1 if there are warnings. A positive
- * value is the limit of the energy residual, and replaces the limit of FINDING_ENERGY. */
+/* Values of --strict. STRICT_OFF: findings keep the exit status 0. STRICT_FINDINGS: a warning makes it 1. A positive
+ * value is like STRICT_FINDINGS, but replaces the limit of FINDING_ENERGY. */
 #define STRICT_OFF (-1.0)
 #define STRICT_FINDINGS 0.0
 
@@ -38,14 +38,14 @@ typedef struct finding_row {
     double limit;
     const char *unit;   /* unit of the limit */
     const char *reason; /* reason for the limit */
-    const char *points; /* words for a sweep, after "3 of 9 points" */
+    const char *points; /* predicate of a sweep's message "3 of 9 points ..." */
 } finding_row;
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* FINDING_ACCURACY: the error of a coordinate or rate reaches RUN_CHECKS_EARLY_TOLERANCE of its range at early_s, and
- * RUN_CHECKS_TOLERANCE at until_s, in the run's first half. It is reported if early_s is at most RUN_CHECKS_BEGIN *
- * (the run's end) or until_s / RUN_CHECKS_GROWS. Else it grew as in a chaotic motion, and no smaller step helps. */
+/* FINDING_ACCURACY: the error of a coordinate or rate passes RUN_CHECKS_TOLERANCE of its range in the run's first half.
+ * Errors of chaotic motions are exempt, because no smaller step helps. They pass RUN_CHECKS_EARLY_TOLERANCE at a time
+ * early_s > RUN_CHECKS_BEGIN * end_s, and RUN_CHECKS_TOLERANCE before RUN_CHECKS_GROWS * early_s. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
@@ -54,10 +54,10 @@ extern const finding_row finding_rows[FINDINGS];
  * HORIZON_TOLERANCE within RUN_CHECKS_SUDDEN_STEPS steps. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* FINDING_ENERGY: limit of |residual| / (largest entry) before the run's end. Smaller ones are invisible in a plot. */
+/* FINDING_ENERGY: limit of |residual| / largest_J before the run's end. A smaller ratio is invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* FINDING_EVENTS allows 1 + RUN_CHECKS_RESTS_STEPS * (steps of the run) steps with too many events, if the sum of their
- * |energy changes| is at most RUN_CHECKS_RESTS times the largest entry. Last bounces before a rest need this. */
+/* FINDING_EVENTS exempts the last bounces before a rest: at most 1 + RUN_CHECKS_RESTS_STEPS * (steps of the run) steps
+ * may have too many events. The sum of their |energy changes| may be at most RUN_CHECKS_RESTS * largest_J. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 
