@@ -137,7 +137,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
         a->at_s, a->value);
 }
 
-/* Of the contacts except `besides`, the one with the most events in steps with too many events; -1: none. */
+/* The contact with the most events in the overruns, not counting contact `besides`; -1: none. */
 static int busiest(const run_checks *v, int besides) {
     int found = -1;
     for (int k = 0; k < v->image->contacts; k++) {
@@ -194,7 +194,7 @@ static void (*const say[FINDINGS])(FILE *, const run_checks *) = {
 typedef enum remedy_outcome {
     REMEDY_DOES,    /* a run with these options has no findings */
     REMEDY_NONE,    /* no tried option helped */
-    REMEDY_UNTRIED, /* other options would need another derivation, or the run made no step */
+    REMEDY_UNTRIED, /* no option was tried */
     REMEDY_DEAR     /* the budget was exhausted, or the user interrupted */
 } remedy_outcome;
 
@@ -214,7 +214,7 @@ typedef struct search {
     const image *image;
     const engine_kind *kind;
     budget *budget;
-    double part;   /* factor on the limits (run_checks.h) */
+    double part;   /* factor on the limits of energy and accuracy */
     double a_step; /* operations of one step of the run, including the checks of this step */
     double stages; /* stages of the run's method */
     bool over_budget;
@@ -239,8 +239,7 @@ static bool image_with(const image *im, const request *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* Is a trial inaccurate? In float it must be accurate to its end, because double is tried next. In double only an error
- * near the start counts: the error of a chaotic motion comes later. */
+/* Is a trial inaccurate? In double, only errors near its start count: a chaotic motion always has later errors. */
 static bool is_off_at_once(const run_checks *v) {
     if (v->doubling == NULL) {
         return false;
@@ -344,8 +343,7 @@ static remedy_outcome find(search *s, double parts) {
     return try_steps(s, w, parts) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-/* Prints a hint with options, such as "--step 50us --compensated", for a finished run, if it finds any within the rest
- * of the checks' budget. `parts`: divisor of the first finer step that is tried, at least 2. */
+/* Tries options, and prints a hint with those that help. `parts`: divisor of the first finer step that is tried. */
 static remedy_outcome say_options(FILE *out, const run_checks *v, double parts) {
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
@@ -416,7 +414,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
-/* The divisor of the step that should reduce FINDING_ENERGY's value to 3e-4, if it is proportional to step^order. */
+/* The divisor of the step that should reduce the value of FINDING_ENERGY to 3e-4. */
 static double first_parts(const run_checks *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;

@@ -11,8 +11,8 @@
 
 /* Factor on the round-off bound, because the bound omits the round-off of library functions and of a step's sums. */
 #define ROUNDING_ROOM 8.0
-/* Least range of a rate, as a part of its magnitude: float cannot resolve a thousandth of the variation of a rate of
- * 34.56 rad/s that varies by 0.007. Positions have no least range, because their origin is arbitrary. */
+/* Least range of a column whose derivative is not in the state, as a part of the column's largest magnitude. Float
+ * resolves about 1e-7 of this magnitude. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
 /* A position counts as constant if its range is at most STAYS times its magnitude, or STAYS SI units. It is also
@@ -21,8 +21,8 @@
 #define FLOAT_STAYS 3e-7 /* in float, a range up to this part of the magnitude is round-off */
 #define BESIDE_OTHERS 1e-3
 #define STARTS 1e-12 /* a computed start value up to this, in SI units, counts as zero */
-/* Both runs may have the same round-off if the bound on it exceeds BOUND_OVER times the error to be detected. The bound
- * is about 20 times the round-off. If the round-off is the same at all states, the bound is only 8 times as large. */
+/* Round-off may hide an error if the bound on the round-off exceeds BOUND_OVER times the error. The bound is 8 to 20
+ * times the true round-off. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -50,7 +50,7 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* Can both runs share a round-off above `least`? In constant columns, the bound on it must exceed least_size(), too. */
+/* Can both runs share a round-off above `least`? */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
@@ -124,11 +124,11 @@ void horizon_free(horizon *h) {
 }
 
 /* === aliasing ==================================================================================== */
-/* Detects forcing that aliases with the step. In steps of 4 ms, and of 2 ms, a force of 1 kHz has the same value at
- * every stage, like a constant force. The run and its finer run agree, and are wrong. So a third run takes a prime
- * number of steps in the span on which they agree. It samples other phases of the force, so its last state differs. */
+/* Detects forcing that aliases with the step. Example: if the steps are 4 ms and 2 ms, a force of 1 kHz has the same
+ * value at every stage. Then the run and its finer run agree, although both are wrong. A third run with a prime number
+ * of steps samples other phases of the force, so its last state differs. */
 
-/* The third run has about STEPS times the steps of the run: more for accuracy, and no simple ratio. */
+/* The third run has about STEPS times as many steps as the run. */
 #define STEPS 1.41
 /* The third run may have an error of ITS_OWN times the difference between the run and the finer run. */
 #define ITS_OWN 2.0

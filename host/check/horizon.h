@@ -22,8 +22,8 @@ typedef enum horizon_verdict {
 
 typedef struct horizon_column {
     horizon_verdict verdict;
-    /* Largest minus least value, in the column's unit. If the column's rate is not in the state, the range is at
-     * least 1e-3 of the column's largest magnitude (in double, 1e-9). */
+    /* Largest minus least value, in the column's unit. If the state does not contain the derivative of this column,
+     * the range is at least 1e-3 (in double, 1e-9) of the column's largest magnitude. */
     double range;
     double rounding; /* bound on the round-off in the finer run */
     double off;      /* largest difference between the two runs, times step_doubling.left_out */
@@ -54,7 +54,7 @@ void aliasing_find(step_doubling *t, budget *of);
 /* === in words ================================================================================= */
 /* Prints the time until which each column is accurate, and the balances. `b`: NULL if the system has no energies. */
 void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance);
-/* Prints one line for a summary. `doubted`: a warning names an error that the finer run may share. */
+/* Prints one line for a summary. `doubted`: the run has a warning, and the finer run may have the same error. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
 extern const char *const horizon_words[];
 /* Writes CSV: a header, and a row for each coordinate and rate. */

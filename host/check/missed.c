@@ -90,7 +90,7 @@ static void taylor_bounds_close(taylor_bounds *a) {
 
 /* --- jets -----------------------------------------------------------------------------------------------*/
 
-/* The intersection; the known enclosure if one is unknown; `a` if round-off makes the intersection empty. */
+/* The intersection of two enclosures of the same value; one of them may be unknown. */
 static enclosure both(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? a : b;
@@ -343,7 +343,7 @@ static void cut(jet *part, const jet *middle, double half) {
 
 /* --- the path -----------------------------------------------------------------------------------------------*/
 
-/* Sets the path: the cubic with these positions and rates at its ends, `span_s` apart. from, to: [angles + reals]. */
+/* Sets the path: the cubic through the positions and rates of the states `from` and `to`, which are `span_s` apart. */
 static void taylor_bounds_way(taylor_bounds *a, const double *from, const double *to,
                               double span_s) {
     const int n = a->image->coordinates;
@@ -399,8 +399,7 @@ static void go(taylor_bounds *a, double low, double high) {
     }
 }
 
-/* Costs, as numbers of list operations. BOUNDS: natural bounds of an operation. WAY: position and rate of a coordinate.
- * FORM: both jets of an operation. CALLED: both jets of a function or power. */
+/* Costs, in list operations, of natural bounds, a coordinate's path, a Taylor form, and a Taylor form of a function. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 /* Natural bounds of one result on the whole path: a quick test. */
@@ -458,28 +457,28 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 #define HALVINGS 24    /* most halvings of a path */
 #define PARTS_MOST 400 /* most parts of a path that are tested for one contact or coordinate */
-/* A negative margin() of size x is a touch if x is below TOUCH times the larger margin at the ends, and below TOUCH
- * times its change over the path. It is round-off if x is below WIDTHS times the width of the bounds at the middle. */
+/* TOUCH: a negative margin() counts as zero up to this part of the margin at an end, or of its change if that is less.
+ * WIDTHS: it also counts as zero up to this many widths of its bounds. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends. It
- * must also suffice to change the rate, within the path, by TURNS times the larger of the rates at the ends. */
+/* An acceleration inside a path is hidden if it exceeds HIDDEN times the sum of the accelerations at both ends. It must
+ * also be able to change the rate within the path by TURNS times the larger rate at the ends. */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* A gap's slope jumps if its change on 2^-EDGE_HALVINGS of a path exceeds EDGE times the sum of those at both ends. */
+/* A gap's slope jumps if its relative change within 2^-EDGE_HALVINGS of a path exceeds EDGE. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 
 struct missed {
     const image *image;
-    taylor_bounds *signals; /* of the list IMAGE_SIGNALS; NULL if there are no contacts */
-    taylor_bounds *accel;   /* of the accelerations; NULL if not needed */
-    bool hills;             /* the accelerations may have a narrow peak */
-    bool smooth;            /* no acceleration has a kink; else no undecided peak is reported */
-    bool edges;             /* a gap may have an edge */
-    taylor_bounds *laws;    /* of the contact laws, for edges and moving friction limits; or NULL */
-    int *mode;              /* [contacts] before the step */
-    int *mode_to;           /* [contacts] after the step */
+    taylor_bounds *signals;    /* of the list IMAGE_SIGNALS; NULL if there are no contacts */
+    taylor_bounds *accel;      /* of the accelerations; NULL if not needed */
+    bool hills;                /* the accelerations may have a narrow peak */
+    bool smooth;               /* no acceleration has a kink */
+    bool edges;                /* a gap may have an edge */
+    taylor_bounds *laws;       /* of the contact laws; NULL if not needed */
+    int *mode;                 /* [contacts] before the step */
+    int *mode_to;              /* [contacts] after the step */
     const engine_piece *piece; /* the present path */
 };
 
@@ -568,7 +567,7 @@ struct search {
 /* Contacts shorter than the finest part are not searched. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
-/* A negative margin up to the size s->bar does not count: it is the error of a located event at an end. */
+/* Is the margin negative? Values down to -s->bar do not count: events are located with an error. */
 static int look_contact(const search *s, double low, double high) {
     const int k = s->result / 2;
     taylor_bounds_look(s->bounds, s->result, low, high);
@@ -584,7 +583,7 @@ static int look_contact(const search *s, double low, double high) {
     return outside || (is_finest(low, high) && enclosure_is_finite(value)) ? 0 : -1;
 }
 
-/* Exceeds the value's size the bar? */
+/* Is the magnitude of the value above the bar? */
 static int look_size(const search *s, double low, double high) {
     taylor_bounds_look(s->bounds, s->result, low, high);
     const enclosure middle = taylor_bounds_middle(s->bounds, s->result);
@@ -617,7 +616,7 @@ static int passes(search *s, double low, double high, int halvings) {
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
-/* Adds the result `passed` of contact or coordinate `what` to `found`. A certain result replaces an undecided one. */
+/* A certain result replaces an undecided one. */
 static missed_found or_this(missed_found found, int passed, int what) {
     return passed > 0 || (passed < 0 && found.what < 0)
                ? (missed_found){.what = what, .sure = passed > 0}
@@ -656,8 +655,7 @@ static double middle_of(taylor_bounds *a, int result) {
     return 0.5 * e.low + 0.5 * e.high;
 }
 
-/* The friction force that sticking needs (infinite if other contacts act), or that noticeably changes the sliding speed
- * within the path. Takes the larger of each number at both ends of the path. */
+/* If friction k sticks: the force that keeps it stuck. If it slides: a force that changes its speed noticeably. */
 static double force_that_matters(missed *m, int k, bool sticks) {
     const int n = m->image->coordinates;
     const int rows = law_of(m->image, k, WH_LAW_ROWS);
@@ -687,7 +685,7 @@ static double force_that_matters(missed *m, int k, bool sticks) {
     return sticks ? most_load : TURNS * most_rate / (m->piece->span_s * most_turns);
 }
 
-/* Inside the path, is the limit of friction k far larger than at the ends (if k slides), or too small (if k sticks)? */
+/* Does the limit of friction k change inside the path so that the motion should differ? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -738,8 +736,7 @@ static bool slope_jumps(missed *m, int k) {
     return some;
 }
 
-/* The core projects a resting body back onto the stop's face after each step, even if it slid over an edge. So the
- * straight path along the initial rates is tested, too. */
+/* Also tests the straight path along the initial rates, because the core may have moved the body back to the face. */
 static missed_found edge_passed(missed *m) {
     const engine_piece *p = m->piece;
     const int n = m->image->coordinates;
@@ -780,7 +777,7 @@ static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
     bool open[IMAGE_COMPONENTS_MAX];
-    double most[IMAGE_COMPONENTS_MAX] = {0.0}; /* a larger acceleration is hidden */
+    double most[IMAGE_COMPONENTS_MAX] = {0.0};
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {

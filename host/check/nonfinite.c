@@ -130,7 +130,7 @@ static bool *nodes_that_turn(const image *im) {
     return turning;
 }
 
-/* Evaluates the expressions `ahead_s` after the last good state, with the derivatives at that state. */
+/* Evaluates the expressions at a state that is extrapolated by `ahead_s` from the last good state. */
 static blamed look(const nonfinite_at *at, double ahead_s) {
     const image *im = at->image;
     blamed v = blamed_open(im);
@@ -139,7 +139,7 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         for (int k = 0; k < u->order && k < u->starts; k++) {
-            v.state[i][k] = u->start[k]; /* remains if the state has no such component */
+            v.state[i][k] = u->start[k]; /* for components that are not in the state */
         }
         v.state[i][u->order] = isfinite(highest[i]) ? highest[i] : 0.0;
     }
@@ -215,7 +215,7 @@ static bool find(const blamed *v, const nonfinite_at *at, int first, int count, 
     return false;
 }
 
-/* Searches these questions at the last good state, and at later states extrapolated with its rates. */
+/* Calls find() for the last good state, then for states that are extrapolated from it. */
 static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     bool found = false;
@@ -260,7 +260,7 @@ bool nonfinite_energies(const image *im, const engine_kind *kind, const double *
 
 /* --- a step that failed ------------------------------------------------------------------------*/
 
-/* Holds that close a linkage permit several motions in its flat position (core/contact/contact_rank.h). */
+/* For WH_E_SINGULAR: see core/contact/contact_rank.h. */
 static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     char text[STATEMENT_SIZE];
     statement_text(where, text, sizeof text);
