@@ -12,7 +12,6 @@
 
 static bool whole_in_angle(const poly *angle, const symbol *sym);
 
-/* Only tangents, of all atoms, can be computed from a turn angle's sine and cosine. */
 static bool is_tangent(const atom *x) { return x->kind == ATOM_CALL && x->function == FN_TAN; }
 
 /* Does `sym` occur in this product only inside sines and cosines? If `tangents`, tangents are allowed, too. */
@@ -57,16 +56,15 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 }
 
 /* === powers from multiple angles ============================================================== */
-/* With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products s^j c^(n-j). A sum of
- * sin 2kx is sin x cos x times such a sum of degree n - 1. If the sum vanishes at x = 0, the coefficient of c^n is
- * zero, and the products keep the digits that the sum loses by cancellation. At x = pi/2 the same is true of s^n. */
+/* Let s = sin(x)^2 and c = cos(x)^2. A sum of terms c_k cos 2kx, with k = 0 ... n, equals a sum of products
+ * s^j c^(n-j). A sum of terms c_k sin 2kx equals sin x cos x times a sum of products s^j c^(n-1-j). If the sum vanishes
+ * at x = 0, the product without s drops out, and the others keep the digits that the sum would lose. */
 
 #define SAME_PIECE 1e-13 /* coefficients with a smaller relative difference count as equal */
 #define CANCELLED 1e-14  /* a sum below this, relative to its addends, counts as zero */
 #define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
 #define INDICES (MULTIPLE_MAX + 1)
-/* A family is not rewritten if the bounds of its products add up to more than this times the sum of |c_k|. Otherwise
- * the products could lose more digits at other angles than they gain near x = 0 or x = pi/2. */
+/* A family whose products can exceed this times the sum of |c_k| is not rewritten: large products lose digits. */
 #define GROWTH_MAX 8.0
 
 /* Compares by member, because padding bytes between a 32-bit pointer and a double are undefined. */
@@ -169,7 +167,7 @@ static expansion expand(const family *f) {
             sum.coefficient[j] += f->coefficient[k] * now[j];
             sum.added[j] += fabs(f->coefficient[k] * now[j]);
         }
-        /* the first step of the cosines has no factor 2: P_1 = cos 2x = (c - s) P_0 */
+        /* only P_1 = (c - s) P_0 of the cosines has no factor 2 */
         const double turn = k == 0 ? 1.0 : 2.0;
         double next[INDICES + 1] = {0};
         for (int j = 0; j <= degree + 1 && j < INDICES; j++) {
@@ -304,7 +302,7 @@ struct wave {
     int cosine;
 };
 
-#define PARTS_MAX 96 /* number of waves, from the first, that rule_for() tries as p */
+#define PARTS_MAX 96 /* rule_for() tries only this many waves as wave p */
 #define BETWEEN_MAX 32
 
 static int find(const lowering *l, const poly *angle) {
@@ -333,7 +331,7 @@ static double size_of(const poly *angle) {
     return size + 0.01 * angle->count;
 }
 
-/* Makes the first coefficient of an angle positive. *flipped: its sign has changed, and so has the sine's. */
+/* Negates the angle if its first coefficient is negative. *flipped: was it negated? */
 static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
@@ -357,8 +355,7 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* May this wave be part of the rule for `angle`? Not if it has more nested sines than `angle`: the sine of `angle`
- * could be among them, and the recursion would not end. */
+/* A part with more nested sines than `angle` could itself need the sine of `angle`: an endless recursion. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -405,9 +402,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Does the angle contain a fraction of a turn angle, such as half of it? Only records have such angles. Their sines are
- * evaluated directly. Because no other sine is computed from them, a record does not change the bits of other
- * results. */
+/* Is there a fraction of a turn angle, such as half of it? No other sine is computed from the sine of such an angle. */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -432,7 +427,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
             append(l, w);
             continue;
         }
-        /* an intermediate angle may help: 3a = 2a + a */
+        /* tries to add an intermediate angle, such as 2a for 3a = 2a + a */
         bool made = false;
         const int known = l->wave_count;
         for (int k = 0; k < known && k < BETWEEN_MAX && !made; k++) {
@@ -449,7 +444,6 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* Enters an angle's phase. A term is a multiple of a turn angle, a constant offset, or an expression in radians. */
 static int phase_of(lowering *l, const poly *angle) {
     double *multiple = alloc(l->list->angles, sizeof *multiple);
     double offset = 0.0;
@@ -471,8 +465,7 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* In this file each statement enters one operation. C does not fix the order in which arguments are evaluated, and that
- * order would become the order of the list. */
+/* In this file, at most one argument of a call enters operations: C does not fix the arguments' order of evaluation. */
 static int wave_node(lowering *l, int i, trig which);
 
 static int waves_product(lowering *l, int p, trig of_p, int q, trig of_q) {
@@ -517,7 +510,7 @@ static int wave_of(lowering *l, const poly *angle, trig which) {
 
 /* === polys to operations ====================================================================== */
 
-#define SAME 1e-13 /* coefficients within this relative difference come from the same number */
+#define SAME 1e-13 /* coefficients with a smaller relative difference count as equal */
 
 /* Different angles, the smallest first, and equally large ones in the order of entry. */
 typedef struct angle_list {
@@ -573,8 +566,7 @@ void lower_done(lowering *l) {
     free(l->uses);
 }
 
-/* A power with a larger whole exponent, which an int may not hold, is one operation, not products (op_list_power()). */
-#define EXPONENT_MAX 64.0
+#define EXPONENT_MAX 64.0 /* a power with a larger exponent is one operation, not products */
 
 void lower_multiply(lowering *l, node_product *p, int node, int exponent) {
     double value;
@@ -603,7 +595,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a tangent without turn angles calls tan(), because a phase would round its argument to 1.5e-9 rad */
+    /* without turn angles, tan() is more precise: a phase rounds its argument to 1.5e-9 rad */
     if (is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = wave_of(l, x->argument[0], TRIG_SIN);
         return op_list_div(l->list, s, wave_of(l, x->argument[0], TRIG_COS));
@@ -641,7 +633,7 @@ static void product_factor(lowering *l, node_product *p, const mono_factor *f) {
     lower_multiply(l, p, node, (int)size);
 }
 
-/* Returns the sum of the members' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
+/* Returns size * (sum of the members' nodes with positive coefficients - sum of those with negative ones). */
 static int sum_of_like(lowering *l, const node_product *products, const int *nodes,
                        const bool *member, int count, double size) {
     op_list *t = l->list;
@@ -683,7 +675,7 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
         }
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
-        /* sum_of_like() subtracts the nodes of negative products: with the factor -size, `part` is minus the sum */
+        /* if all_negative, `part` is minus the members' sum */
         sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
                            : op_list_add(t, sum, part);
     }
@@ -693,7 +685,7 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
     return sum;
 }
 
-/* Returns the node that the most products share, or -1. In a tie a rate wins, so that sums of sines are not split. */
+/* Returns the node that occurs in the most products, or -1 if none occurs in two. A rate wins a tie. */
 static int most_shared(lowering *l, const node_product *products, int count) {
     int best = -1;
     int best_uses = 1;

@@ -10,8 +10,7 @@
 /* coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines */
 typedef struct piece {
     double coefficient;
-    /* the original product; `sines` and `cosines` replace its sine or cosine */
-    const mono *mono;
+    const mono *mono;  /* only its factors count, not its own sine or cosine */
     const poly *angle; /* NULL when both powers are 0 */
     int sines;
     int cosines;
@@ -19,8 +18,8 @@ typedef struct piece {
 
 /* Rewrites sums that cancel at x = 0 or x = pi/2 as powers. Near these angles a sum loses all digits, but a power keeps
  * them. Examples: 1 - cos 2x = 2 sin(x)^2; 3 - 4 cos 2x + cos 4x = 8 sin(x)^4 (at the poles of spherical coordinates);
- * 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x). In x, the coefficient of each term must be a whole number. Writes to
- * pieces[p->count]. Returns the number of pieces. */
+ * 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x). The angle x may be a sum of terms with whole-number coefficients. Returns the
+ * number of pieces written to pieces[p->count]. */
 int pieces_of(algebra *a, const poly *p, piece *pieces);
 
 typedef struct wave wave;
@@ -28,7 +27,7 @@ typedef struct wave wave;
 typedef struct lowering {
     algebra *algebra;
     op_list *list;
-    /* the operation for a symbol outside sines (a leaf of the list) */
+    /* returns the operation for the derivative of order `primes` of `sym` */
     int (*leaf)(void *context, op_list *t, const symbol *sym, int primes);
     /* the index of the symbol's turn angle, or -1 */
     int (*turn)(void *context, const symbol *sym);
@@ -69,7 +68,7 @@ void lower_multiply(lowering *l, node_product *p, int node, int exponent);
 /* Returns the operation for the sum of the products, which are overwritten. Shared factors are taken out. */
 int lower_sum(lowering *l, node_product *products, int count);
 
-/* Can `sym` be a turn angle? It can if p contains it only in sines, cosines and tangents, and times whole numbers. */
+/* Can `sym` be a turn angle? It can if p has it only inside sines, cosines and tangents, with whole-number factors. */
 bool lower_only_in_waves(const poly *p, const symbol *sym);
 
 #endif

@@ -11,9 +11,7 @@
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 
-/* A sum below this, relative to its addends, counts as zero, as in host/algebra. Otherwise the round-off of decimals
- * would be a spurious spring between two masses that move together. */
-#define GHOST 1e-14
+#define GHOST 1e-14 /* a sum below this, relative to its addends, is round-off and counts as zero */
 
 static int affine_states(const image *im) { return im->angles + im->reals; }
 int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
@@ -83,7 +81,7 @@ static bool step(const image *im, const op *o, const double_double *all, double_
         }
         return true;
     case OP_PHASE:
-    case OP_CELL: return true; /* sets no coefficients: no operation that reads it is affine */
+    case OP_CELL: return true; /* no affine operation reads its coefficients */
     case OP_SIN:
     case OP_COS:
     case OP_LINE:
@@ -188,7 +186,7 @@ static void report_nonlinear(const image *im, const equations *e, diags *errors)
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 
-/* Each halving of the step needs a squaring, which may lose one of 104 bits. 50 squarings leave a double's digits. */
+/* Each halving may cost one of the 104 bits of a double_double. The 53 bits of a double must remain. */
 enum { HALVINGS_MOST = 50 };
 
 /* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is below 2^-110 of the matrix. */
@@ -209,8 +207,7 @@ static void product(const double_double *a, const double_double *b, int states, 
     }
 }
 
-/* As exponential_exact(), but without scaling, and with a series up to the power `order`. Every Runge-Kutta method with
- * that order and as many stages gives this result. */
+/* As exponential_exact(), but only the series up to the power `order`. With order 4, this is a step of RK4. */
 static void exponential_series(double_double *step, int states, int columns, int order) {
     const int count = states * columns;
     double_double *power = alloc(count, sizeof *power);
@@ -284,9 +281,7 @@ static void balance(double_double *a, double *unit, int states, int columns) {
     }
 }
 
-/* An entry becomes zero if it is below this part of its row's largest entry (in balanced units). Example: in a chain of
- * twenty masses, the last contributes 1e-60 to the first one's motion in a millisecond, too little for a float. */
-#define LEAST_PART 0x1p-100
+#define LEAST_PART 0x1p-100 /* an entry below this, relative to its row's largest, becomes zero */
 
 static void drop_least(double_double *step, int states, int columns) {
     for (int i = 0; i < states; i++) {
@@ -303,10 +298,10 @@ static void drop_least(double_double *step, int states, int columns) {
     }
 }
 
-/* On entry, step[states * columns] has A | B | c times the step h. On return, it has exp([A B c; 0 0 0] h) - 1 without
- * its lower rows: the change of the states in one step. A is balanced, then the exponential minus one is scaled and
- * squared, which keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential
- * of a Matrix, method 3). Returns false if so many halvings are needed that digits are lost; step[] is then invalid. */
+/* On entry, step[states * columns] is [A B c] h. On return, it is the states' change in one step of length h: the first
+ * `states` rows of exp([A B c; 0 0 0] h) - 1. Scaling and squaring exp - 1 instead of exp keeps the digits of small
+ * changes (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential of a Matrix, method 3). Returns false if
+ * more than HALVINGS_MOST halvings would be needed; step[] is then invalid. */
 static bool exponential_exact(double_double *step, int states, int columns) {
     const int count = states * columns;
     double *unit = alloc(states, sizeof *unit);
@@ -369,7 +364,7 @@ static bool is_possible(const image *im, diags *errors) {
     return false;
 }
 
-/* The operation for a column: a state, an input or the constant. A turn angle's column is zero, so it needs none. */
+/* The operation for a column that is not a turn angle: a state, an input or the constant 1. */
 static int leaf(const image *im, op_list *t, int column) {
     const int real = column - im->angles;
     const int linears = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
@@ -383,7 +378,7 @@ static int leaf(const image *im, op_list *t, int column) {
                           : op_list_leaf(t, OP_RATE, real - linears);
 }
 
-/* Enters the sum of all columns' operations, each times the row's entry. constant() rounds the entries. */
+/* Enters the sum of row[k] times the operation for column k. constant() rounds row[k] first. */
 static int enter_row(const image *im, op_list *t, const double_double *row,
                      double (*constant)(double_double entry)) {
     int sum = op_list_constant(t, 0.0);
@@ -396,7 +391,7 @@ static int enter_row(const image *im, op_list *t, const double_double *row,
     return sum;
 }
 
-/* Enters a row with 1 added to row[of]. If row[of] is small, the 1 is entered separately: row[of] keeps its digits. */
+/* Enters the row with 1 added to row[of]. A small row[of] keeps its digits: the 1 is a term of its own. */
 static int enter_near(const image *im, op_list *t, double_double *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = double_double_add(row[of], double_double_of(1.0));
@@ -411,8 +406,7 @@ static double rest(double_double entry) {
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* Enters the mean rate of turn angle i over a step: row[], the angle's change, divided by the step's length h. In a
- * scene of second order, the coefficient of the angle's own rate is near 1. */
+/* Enters the mean rate of turn angle i over a step. On entry, row[] has the angle's change in a step of length h. */
 static int enter_angle(const image *im, op_list *t, double_double *row, int i, double_double h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);

@@ -65,7 +65,7 @@ static op_list *make_sets(layout *map) {
     return count > 0 ? enter(map, wanted, count) : NULL;
 }
 
-/* The list of the contacts' rows J and responses M^-1 J^T, with the same elimination as the accelerations. */
+/* The list has, for each contact with a force, the numbers of its law, its row J, and its response M^-1 J^T. */
 static op_list *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
@@ -84,7 +84,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n; i++) { /* J includes driven coordinates: they move the contact */
+        for (int i = 0; i < n; i++) { /* puts back the driven coordinates' entries: J has them */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
@@ -106,7 +106,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     return t;
 }
 
-/* If the row J has only one nonzero entry, a constant, returns its coordinate's index in the scene; otherwise -1. */
+/* If the only nonzero entry of row J is a constant, returns its coordinate (map->place); otherwise -1. */
 static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -133,7 +133,6 @@ static int stop_moves(const equations *e, const contact_law *law) {
     return moves;
 }
 
-/* Fills *row from `law`. Also counts holds without a pin (pin_of() is -1), and the values that crossings set. */
 static void make_row(program *p, const contact_law *law, image_contact *row) {
     image *im = p->draft.made;
     const layout *map = &p->layout;
@@ -169,7 +168,7 @@ static void make_row(program *p, const contact_law *law, image_contact *row) {
     }
 }
 
-/* Are all numbers finite, with the parameters' values? Checks unsimplified expressions: a `max` may hide infinity. */
+/* Checks the expressions before simplification, which may remove an infinite argument of a `max`. */
 static bool are_finite(const equations *e, const expr *const *each, int count) {
     for (int i = 0; i < count; i++) {
         if (each[i] != NULL &&
@@ -180,7 +179,6 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
     return true;
 }
 
-/* With a 1/0 from parameter values, a contact's gap or condition would be undefined. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, a root or logarithm of a negative number, or too large values";
@@ -203,7 +201,7 @@ static bool have_finite_laws(const equations *e, diags *errors) {
     return finite;
 }
 
-/* The impulse comes from the mass matrix before the impact, so the matrix must not depend on rates. */
+/* An impact changes the rates, but must not change the mass matrix. */
 static bool have_impulses(const equations *e, diags *errors) {
     for (int k = 0; k < e->contacts->count; k++) {
         const contact_statement *h = e->contacts->law[k].from;
@@ -217,7 +215,7 @@ static bool have_impulses(const equations *e, diags *errors) {
     return true;
 }
 
-/* `s` is the folded system. Returns false after an error (reported). */
+/* Returns false after an error (reported). */
 static bool make_contacts(program *p, const linear_system *s, diags *errors) {
     image *im = p->draft.made;
     layout *map = &p->layout;
@@ -300,8 +298,7 @@ static void smooth_entries(entries *to) {
     }
 }
 
-/* Finds the inputs in the energies. A change of such an input between steps changes the energy: the ledger has an entry
- * for it. */
+/* Finds the inputs in T or V. Each has a ledger entry, because its change between steps changes the energy. */
 static void find_inputs(image_ledger *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
@@ -494,7 +491,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
         t->result[i] = highest[i];
     }
     for (int i = 0; i < n && e->contacts != NULL; i++) {
-        if (map->place[i] >= 0) { /* the core's acceleration includes the contacts' forces */
+        if (map->place[i] >= 0) { /* OP_ACCEL includes the contacts' forces */
             highest[i] = op_list_leaf(t, OP_ACCEL, map->place[i]);
         }
     }
@@ -593,7 +590,7 @@ static bool lists_finite(const image *im, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* Does the step use turn angles only as phases? If not, the solution multiplied an angle by too large a factor. */
+/* A step has angles only modulo a turn. */
 static bool steps_need_no_turns(const image *im, const equations *e, diags *errors) {
     const op_list *const lists[] = {im->list[IMAGE_STEP], im->list[IMAGE_SIGNALS],
                                     im->list[IMAGE_FORCES], im->list[IMAGE_SETS]};
@@ -608,7 +605,7 @@ static bool steps_need_no_turns(const image *im, const equations *e, diags *erro
     return true;
 }
 
-/* Makes a ledger if one is needed. If only a balance with contacts needs it, a failure is no error. */
+/* If only the balance needs the ledger, a failure to make it is no error. */
 static bool make_ledger_asked(program *p, diags *errors) {
     image *im = p->draft.made;
     const equations *e = p->layout.equations;
@@ -626,7 +623,7 @@ static bool make_ledger_asked(program *p, diags *errors) {
     return make_ledger(p, errors) && (!stabilized || stabilizing_conserves(&im->ledger, e, errors));
 }
 
-/* `s` is the folded system. Returns false after an error (reported). */
+/* Returns false after an error (reported). */
 static bool make_lists(program *p, const linear_system *s, diags *errors) {
     image *im = p->draft.made;
     layout *map = &p->layout;

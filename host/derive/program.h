@@ -6,10 +6,10 @@
 #include "host/derive/layout.h"
 #include "host/derive/solve.h"
 
-/* The ledger. By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, the other
- * coordinates' motion) and by each generalized force, damper and contact. The energy changes by the work of forces,
- * dampers and contacts. It also changes with every input that T or V contains. If the energy integral is not T + V, the
- * ledger has the integral instead of the energy (equations.h). */
+/* The ledger. By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, motion of the
+ * other coordinates), and by generalized forces, dampers and contacts. The energy changes by the work of forces,
+ * dampers and contacts, and with each input in T or V. If the energy integral is not T + V (equations.h), the integral
+ * replaces the energy. */
 
 typedef struct program {
     layout layout;
