@@ -21,10 +21,9 @@
 
 typedef struct energy_residual {
     bool known; /* false: no energies, energies that are not finite, or contacts without a ledger */
-    double
-        inputs_J; /* this, losses_J and contacts_J: work since the start; below 0 if it removes energy */
-    double losses_J;
-    double contacts_J;
+    double inputs_J;   /* work of inputs since the start; below 0 if it removes energy */
+    double losses_J;   /* work of losses, with the same sign rule */
+    double contacts_J; /* work of contacts, with the same sign rule */
     double left_J;     /* residual, signed */
     double largest_J;  /* largest |entry|, at least rounding_J / ENERGY_RESIDUAL_LIMIT */
     bool rounded;      /* every entry is below rounding_J / ENERGY_RESIDUAL_LIMIT */
