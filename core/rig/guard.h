@@ -8,8 +8,8 @@
 
 WH_C_BEGIN
 
-/* Reasons to stop: X(name, number, words). Consoles and records use the numbers, so they never change. (Number 1 was a
- * refused set-point, which is now a refusal of state_machine.h.) The words fit a line of the report: 95 characters. */
+/* Reasons to stop: X(name, number, words). Consoles and records use the numbers, so no number is ever changed or
+ * reused. The words have at most 95 characters: one line of the report. */
 #define WH_TRIP_ROWS(X) \
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
@@ -46,7 +46,7 @@ typedef struct wh_guard_config {
     wh_real climb;
     wh_real climb_start_radps2;  /* largest rise of the speed while the control loop takes over */
     wh_real climb_behind_radps2; /* largest rise while the speed lags behind the set-point */
-    wh_real behind_radps;        /* least lag for climb_behind_radps2 */
+    wh_real behind_radps;        /* climb_behind_radps2 applies above this lag */
     wh_real climb_there_radps2;  /* largest rise otherwise */
     wh_real fall_radps;         /* 2 sqrt(S g / I): speed at the bottom after a fall from the top */
     uint32_t lost_max;          /* number of pulses that may be lost in a run */
@@ -66,32 +66,33 @@ typedef struct wh_guard_config {
 } wh_guard_config;
 
 /* Checks of the pulses while the motor is off or brakes. They do not depend on the commands. A turn is the time between
- * two pulses of one sensor. In a turn, gravity does no work:
+ * two pulses of one sensor. Gravity does no work in a turn:
  *
- * - A braked rotor's mean speed falls by 2 pi c/I in a turn. c is the damping of the torque line. If the loss is below
- * braked_radps (half the loss at six times the configured I), the enable goes off until the next run (`released`).
- * - With the enable off, only friction acts. So turns only get slower.
+ * - While the motor brakes, the mean speed falls by 2 pi c/I per turn. c is the damping of the torque line. If the
+ * speed falls by less than braked_radps, the enable goes off until the next run (`released`). braked_radps is half the
+ * fall at six times the configured I.
+ * - With the enable off, only friction acts. If a speed above hand_radps rises from turn to turn, the rig trips.
  *
  * A rotor that swings about its hanging position fires a sensor twice in each swing. The intervals between these pulses
- * are no turns, and get shorter as the swing decays. An interval counts as a turn in three cases:
+ * are no turns. An interval counts as a turn in three cases:
  *
- * - The sensors fire alternately. Then an interval of sensor 2 is a turn. An interval of sensor 1 is a turn only if
- * sensor 2 fires next: a swing that reverses between the edges of sensor 2's slot also gives the pulses 1, 2, 1.
- * - One sensor fires alone, because the other is dead, and two intervals show a speed above 2 sqrt(S g/I), with I half
- * the configured inertia. In a swing, two intervals last a period, at least 2 pi sqrt(I/S g). So one of them is slower.
- * - After `released`, the intervals of a sensor that fires alone get longer three times in succession, by at least 2 %
- * each. At the end of a swing that friction stops, this happens at most twice. */
+ * - The pulses alternate between the sensors. After an interval of sensor 1, sensor 2 must also fire next: a swing that
+ * reverses in sensor 2's slot gives the pulses 1, 2, 1, too.
+ * - Only one sensor fires, and two successive intervals show a speed above WH_GUARD_LIGHTER * fall_radps. In a swing,
+ * two successive intervals last at least 2 pi sqrt(I/(S g)), so one of them is slower.
+ * - After `released`, only one sensor fires, and its intervals get longer by at least 2 % three times in succession. A
+ * swing that friction stops does this at most twice. */
 typedef struct wh_off {
     bool released;
-    bool doubted; /* released because of one sensor's pulses alone */
-    bool asks;    /* released by alternating pulses: the rig trips if the other sensor fires next */
+    bool doubted;      /* released while only one sensor fired */
+    bool asks;         /* if the next pulse is not from `sensor` again, the rig trips */
     uint8_t sensor;    /* number of the last pulse's sensor, 1 or 2; 0: no pulse yet */
     uint8_t alternate; /* successive pulses, each preceded by a pulse of the other sensor */
     uint8_t alone;     /* successive pulses, each preceded by a pulse of the same sensor */
     struct wh_off_turns {
         uint32_t ticks;
         uint32_t turn_ticks;  /* time between the sensor's last two pulses; 0 before its second */
-        uint32_t first_ticks; /* duration of the turn before those that `faster` counts */
+        uint32_t first_ticks; /* duration of the last turn before the speed began to rise */
         uint8_t faster;       /* number of successive turns faster than the one before */
         uint8_t longer;       /* number of successive turns slower by the factor LONGER */
         bool seen;
@@ -100,15 +101,15 @@ typedef struct wh_off {
 
 typedef struct wh_guard {
     wh_trip trip;
-    bool quiet;     /* no pulse for rest_s; latched, because times wrap */
-    bool load_good; /* the last load sample was ok and is recent; latched, because times wrap */
+    bool quiet;     /* no pulse for rest_s */
+    bool load_good; /* the last load sample was ok and is recent */
     uint32_t pulses_seen;
     uint32_t pulse_ticks;     /* time of the last pulse, accepted or not, or of the start */
     uint32_t lost_before;     /* lost pulses when the motor began to drive */
     uint32_t rejected_before; /* rejected pulses when the motor began to drive */
     uint32_t load_ticks;      /* time of the last load sample, or of the start */
     uint32_t load_pulses;     /* accepted pulses at the last load sample */
-    uint32_t still_pulses;    /* pulses since the load last changed, at most one per load sample */
+    uint32_t still_pulses;    /* samples of a constant load, each after a new pulse */
     wh_real still_N;          /* the load at its last change */
     wh_off off;
 } wh_guard;
@@ -118,11 +119,11 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 /* True if a set-point is within its configured limits. `compensated`: with gravity compensation. NaN gives false. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool compensated);
 
-/* Half the configured inertia would give sqrt(2) times wh_guard_config.fall_radps. The rest is a margin. */
+/* Factor on wh_guard_config.fall_radps if the inertia may be half the configured one: sqrt(2), plus a margin. */
 #define WH_GUARD_LIGHTER WH_R(1.5)
 
-/* Returns a bound on the mean speed between two pulses, rad/s. A turn's speed may exceed limit_radps by the fraction
- * config->over. Gravity may add as much energy as in a fall that gains the speed falls * config->fall_radps. */
+/* Returns a bound on the mean speed between two pulses, rad/s: sqrt((limit_radps (1 + over))^2 + (falls fall_radps)^2),
+ * at most config->limit_radps (1 + ripple). `config` has over, ripple and fall_radps. Gravity adds the second term. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. The
@@ -159,14 +160,14 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Checks for over-speed, in each step and state: a turn above limit_radps, or two successive pulse intervals with a
- * speed above bound_radps. One such interval is enough if the speed rises faster at two successive pulses than the
- * drive can accelerate the rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or another with the motor off.
+/* Checks for over-speed, in each step and state. The rig trips with `reason` if a turn is faster than limit_radps, or
+ * two successive pulse intervals are faster than pulses->bound_radps. One interval is enough if the speed also rises
+ * faster than pulses->climb_radps2 at two successive pulses.
  *
- * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the check does nothing
- * if pulses->alternate is less than `alternate`, which is 0 while the motor drives. */
-#define WH_GUARD_BRAKES 1U /* `alternate` with the enable on */
-/* `alternate` with the enable off: larger, because one false pulse corrupts several turns. */
+ * The check needs `alternate` successive pulses that alternate between the sensors: with the motor off, a swinging
+ * rotor can fire one sensor repeatedly. `alternate` is 0 while the motor drives. */
+#define WH_GUARD_BRAKES 1U /* `alternate` while the motor brakes */
+/* `alternate` with the enable off. One false pulse can corrupt several turns, so several pulses must alternate. */
 #define WH_GUARD_COASTS 6U
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
@@ -174,10 +175,8 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     if (pulses->alternate < alternate) {
         return;
     }
-    /* false while a later pulse may show that the last one is a disturbance */
+    /* A pulse that is not yet confirmed may be a disturbance. */
     const bool sure = !pulses->waits || pulses->fast > 0;
-    /* An early pulse alone may be a disturbance, and a rising speed alone may follow from a lost load. Both together
-     * are over-speed. */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
         pulses->climb_radps > WH_R(0.0) &&
@@ -217,8 +216,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* The duration of a constant load is counted in pulses, because the load of a jammed rotor is constant, too. If the
-     * controller is late, several pulses may have come before a sample: they count as one. */
+    /* The limit is in pulses, not in time: a jammed rotor has a constant load, too, but no pulses. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;

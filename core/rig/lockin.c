@@ -11,15 +11,15 @@
 #define GAP_PERIODS WH_R(3.5) /* largest gap between nodes, in sample periods */
 #define OUTLIERS_PER_TURN 10U /* least number of samples per outlier */
 
-/* This many successive equal samples show a frozen load. The load's peak at 100 rpm has fewer, even without noise. */
+/* A load is frozen if this many successive samples equal the one before. At 100 rpm, a load without noise has fewer. */
 #define FROZEN_SAMPLES 8U
 
-/* An outlier deviates by more than 6 standard deviations plus 2 % of the first order: the effect of 1 % more speed. */
+/* An outlier deviates by more than 6 standard deviations plus 2 % of the first order. */
 #define OUTLIER_DEVIATIONS WH_R(6.0)
-#define OUTLIER_PART WH_R(0.02)
+#define OUTLIER_PART WH_R(0.02) /* 1 % more speed adds 2 % to the first order */
 
 #define STEADY_PART 64U /* a turn counts if its duration changes by at most 1/64 */
-#define STILL_PART 256U /* a turn corrects the inertia if its duration changes by at most 1/256 */
+#define STILL_PART 256U /* if the duration changes by at most 1/256, the inertia is estimated */
 
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
     lockin->stage = WH_LOCKIN_WAITS;
@@ -117,7 +117,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* A full queue drops its oldest sample. No result is lost: there is no turn, or it is too slow to be measured. */
+    /* The queue is full only if no turn is open, or the turn is too slow to be measured. */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -156,7 +156,7 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     lockin->place = place;
 }
 
-/* Does the second half of a node's work: skips an outlier, or else adds the node before it to the sums. */
+/* Skips the node if it is an outlier. Otherwise adds lockin->last to the sums and replaces it by the node. */
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
@@ -299,7 +299,7 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* A turn with a gap leaves the prediction valid. If it also has outliers, however, the load may have changed. */
+    /* The prediction stays valid after a turn with a gap. If that turn also has outliers, the load may have changed. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;
@@ -407,7 +407,7 @@ WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config
         }
         return done;
     }
-    if (done) { /* when a stage is finished, the next one begins in the same call */
+    if (done) {
         lockin->stage = (wh_lockin_stage)(lockin->stage + 1);
     }
     return false;

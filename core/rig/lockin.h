@@ -25,20 +25,19 @@
 WH_C_BEGIN
 
 /* === what repeats from turn to turn ========================================================== */
-/* The part of the load's residual that repeats from turn to turn, in harmonics 3 to 6, by synchronous averaging (Braun,
- * Acustica 32 (1975) 69).
+/* Harmonics 3 to 6 of the load that repeat in each turn, by synchronous averaging (Braun, Acustica 32 (1975) 69).
  *
- * The residual after orders 0 to 2 is summed by the rotor's angle over the turns of a record. Noise and mains hum
- * average out. Errors of a cell with clipping, backlash or a nonlinear gain remain. So does the effect of a torque
- * twice per turn, which changes the speed and so gives the force a third harmonic.
+ * The load's residual after orders 0 to 2 is summed at each angle of the rotor over the turns of a record. Noise and
+ * mains hum average out. A cell with clipping, backlash or a nonlinear gain leaves such harmonics. A torque that
+ * acts twice per turn leaves a third harmonic, because it changes the speed.
  *
- * A rigid rotor on a fixed mount has no such harmonics: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
- * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping's effect on w^2 adds small
- * harmonics, and so do the angle's third-order terms (result.c). The noise is estimated from differences of successive
- * samples, as for the tare, so that hum and slow changes do not count as noise. */
+ * A rigid rotor on a fixed mount leaves almost none: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
+ * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping and the angle's third-order terms (result.c) add
+ * little. The noise is estimated from differences of successive residuals. So hum and slow
+ * changes do not count as noise. */
 
-/* Number of angles at which the residual is summed. Hum at or above harmonic 26 of the turn (50 Hz at 115 rpm) is
- * aliased to harmonics 6 and below, with a fifth of its amplitude. */
+/* Number of angles at which the residual is summed. Hum at harmonic 26 of the turn (50 Hz at 115 rpm) is aliased to
+ * harmonic 6, with a fifth of the hum's amplitude. */
 #define WH_REPEATS_BINS 32U
 
 /* The evaluated harmonics. (result.h uses the second harmonic to check the speed ripple.) */
@@ -51,7 +50,7 @@ typedef struct wh_repeats {
     wh_real bin_N[WH_REPEATS_BINS]; /* integral of the residual over the angle */
 } wh_repeats;
 
-/* Adds residual_Nrad (a residual times an angle step) to the bin of theta_rad (at most about one turn). */
+/* Adds residual_Nrad (a residual times an angle step) to the bin of theta_rad, which is at most about 2 pi. */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
     const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
@@ -63,14 +62,14 @@ WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real re
 
 void wh_repeats_merge(wh_repeats *sum, const wh_repeats *turn, uint32_t samples);
 
-/* Returns the squared amplitude of a harmonic, averaged over the turns. */
+/* Averages the turns' residual at each angle. Returns the squared amplitude of a harmonic of this average. */
 wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harmonic);
 
 #ifndef WH_LOCKIN_SAMPLES
 /* Maximum number of waiting samples: 1.25 turns at 100 rpm and 500 samples/s. A small chip's build may set less. */
 #define WH_LOCKIN_SAMPLES 384U
 #endif
-/* Limits per control step. A node (a sample or pulse) takes two halves of work: its place and its weight. */
+/* Limits per control step. A step may do half of the work for a node (a sample or pulse), the next step the rest. */
 #define WH_LOCKIN_HALVES_AT_ONCE 3U /* half nodes */
 #define WH_LOCKIN_STALE_AT_ONCE 8U  /* samples dropped because they are older than the turn */
 

@@ -51,13 +51,12 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 /* Pieces of work that merge the turns into a result. The last one judges the result's quality. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* After a turn, one piece of work adds its repeating residual to the sum. At the record's end, one piece evaluates each
- * harmonic of that sum. In both cases the pieces of the merge follow. */
+/* After each turn: one piece adds the turn's residual to merge->repeats, then the merge follows. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
+/* At the record's end: one piece for each harmonic, then the merge. */
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
-/* The pieces before this one compute the means, the others the scatter and half-widths. Unless pieces must be small,
- * each of these two groups takes one control step. */
+/* The first piece that computes the scatter and half-widths. Earlier pieces compute the means. */
 #define SCATTER 3U
 
 static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
@@ -164,8 +163,7 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* The largest variance that noise may give the triangular means, divided by the samples' variance. White noise gives
- * 2 / (3 WH_TARE_BLOCK); four times that is allowed. */
+/* Limit on the ratio of the triangular means' variance to the samples' variance. White noise gives a quarter of it. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
 /* Ends a block: takes the mean of this block and the previous one, with triangular weights. */

@@ -13,15 +13,15 @@ WH_C_BEGIN
 /* === the tare ================================================================================ */
 /* The load cell's reading at rest, from noisy samples, and a check that the rig was at rest.
  *
- * Motion is slow: drift, a rotor that swings (1 to 3 Hz), a vibrating frame (up to some 10 Hz). Hum is fast, and its
- * mean vanishes. So the check uses means of 40 samples with triangular weights, a new mean every 20 samples. At 2 ms
- * per sample a mean spans 80 ms. It passes at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz.
- * White noise of variance s^2 gives these means the variance s^2/30, and s^2 is half the mean square of successive
- * differences (von Neumann, Annals of Mathematical Statistics 12 (1941) 367). The check allows four times that
- * variance: with eleven means, noise alone exceeds it in less than one of 10,000 tares. */
+ * Motion is slow: drift, a rotor that swings (1 to 3 Hz), a vibrating frame (up to some 10 Hz). Mains hum is fast. So
+ * the check uses means of 40 samples with triangular weights. A new mean begins every 20 samples. At 2 ms per sample,
+ * their gain is at most 1.6 % from 45 to 65 Hz, 0 at 50 Hz, and 87 % at 5 Hz.
+ * White noise of variance s^2 gives the means the variance s^2/30. The estimate of s^2 is half the mean square of the
+ * differences of successive samples (von Neumann, Annals of Mathematical Statistics 12 (1941) 367). The check allows
+ * 4 s^2/30. With eleven means, noise alone exceeds this limit in less than one of 10,000 tares. */
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* at least 4 WH_TARE_BLOCK: the check needs the three means of four blocks */
+    uint32_t samples; /* at least 4 WH_TARE_BLOCK, because the check needs three means */
     wh_real still_N;  /* largest standard deviation that slow motion may add to the means */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
@@ -34,8 +34,8 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
-    wh_real rises_N;  /* sum of the present block with rising weights */
-    wh_real falls_N;  /* the same with falling weights */
+    wh_real rises_N;  /* sum of the present block's samples, with weights that rise from 0 to 1 */
+    wh_real falls_N;  /* the same sum, with weights that fall from 1 to 0 */
     wh_real before_N; /* rises_N of the previous block */
     uint32_t means;   /* number of triangular means */
     wh_real slow_N;   /* mean of the triangular means */
