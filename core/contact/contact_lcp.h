@@ -30,11 +30,10 @@
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
 /* The curvature terms J' q' of redundant contacts count as equal if they differ by less than this fraction of the
- * acceleration's terms. Otherwise the small rate that remains after friction has stopped a motion would make the
- * contacts contradict each other. */
+ * acceleration's terms. The small rate that remains after friction has stopped a motion is thus no contradiction. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* If round-off hides the excess of a force over its limit, the force gets this excess, as a fraction of the limit. */
+/* A force whose excess over its limit is hidden by round-off gets this excess, as a fraction of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
@@ -47,12 +46,11 @@ typedef struct wh_contact_set {
     const int8_t *at; /* [count] -1: at low limit, 0: between, 1: at high limit; NULL: all 0 */
 } wh_contact_set;
 
-/* Finds redundant contacts whose wanted acceleration (in an impact, rate) the other contacts do not produce. For
- * example, two rows are parallel at a dead centre, but only one of the paths is curved; or two stops on one path have
- * different restitutions. For each contact in `repeats` (bits of indices in member[]), push[] gets the sign of the
- * missing acceleration or rate, or 0. way[] is the change of the accelerations by all forces. In an impact, impulse[]
- * is not NULL, and way[] is the change of the rates by all impulses. The curvature term J' q' is also tested by itself:
- * in a slow motion the round-off of the accelerations would hide it. */
+/* Finds redundant contacts whose wanted acceleration the other contacts do not produce. For each contact in `repeats`
+ * (bits of indices in member[]), push[] gets the sign of the missing acceleration, or 0. way[] is the change of the
+ * accelerations by all forces. The curvature term J' q' is also tested by itself, because round-off of the
+ * accelerations hides it in a slow motion. In an impact, impulse[] is not NULL, and rates take the place of
+ * accelerations. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -128,7 +126,7 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* Round-off spreads through chains of bodies. This loop does not amplify it (Cauchy-Schwarz inequality). */
+    /* Carries the round-off of each contact to the others, without growth (Cauchy-Schwarz inequality). */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
@@ -145,9 +143,9 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way if the force of the redundant contact member[i] grows in direction `push`. If this
- * contact is a friction or would have to pull, it gives way itself. Otherwise the other contact whose force reaches a
- * limit first does. Returns its index in member[] (or `count`) and, in *limit, that limit (-1 or 1). */
+/* Finds the contact that gives way if the force of the redundant contact member[i] grows in direction `push`. This is
+ * member[i] itself if it is a friction or would have to pull. Otherwise this is the contact whose force reaches a limit
+ * first. Returns its index in member[], or `count` if there is none. *limit gets that limit (-1: low, 1: high). */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -155,8 +153,7 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     int8_t fixed[WH_CONTACTS_MAX];
     wh_real less[WH_CONTACTS_MAX];
-    /* decrease of each force by a unit force of contact i */
-    wh_real share[WH_CONTACTS_MAX];
+    wh_real share[WH_CONTACTS_MAX]; /* decrease of each force per unit of force i */
     wh_real soonest = WH_LIMITLESS;
     unsigned first = count;
     *limit = push;
@@ -182,9 +179,9 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     return first;
 }
 
-/* Does one round of the pivoting. Contacts with at[] = 0 get the forces that give the accelerations `wanted`; the
- * caller checks their limits. The others get the force at their limit (-1: low, 1: high). `way`, zero on entry, gets
- * the change of the accelerations by all forces. Returns the redundant contacts, as bits of indices. */
+/* Does one round of the pivoting. A contact at a limit (at[] is -1: low, 1: high) gets the force of this limit.
+ * Contacts with at[] = 0 get the forces that give the accelerations `wanted`, even beyond a limit. `way`, zero on
+ * entry, gets the change of the accelerations by all forces. Returns the redundant contacts, as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {
@@ -250,8 +247,7 @@ typedef struct wh_contact_pivot {
 } wh_contact_pivot;
 
 /* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A freed contact becomes the last
- * one in the elimination. If the rows are dependent, it is therefore the redundant contact, and is tested for a
- * contradiction. */
+ * one in the elimination. So if the rows are dependent, the freed contact is the redundant one. */
 WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
     const uint8_t k = p->member[i];
     const wh_real wanted = p->wanted[i];
@@ -295,7 +291,7 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* gives way despite a zero residual */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* only the sign matters */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }

@@ -12,8 +12,8 @@ WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work 
 }
 
 /* Enters the work and the impulse of contact k, whose force `lambda` acted for the time `share` while J_k q' was
- * `speed`. For an impulse, `share` is 1 and `speed` is the mean speed. Work on an input with a rate belongs to the
- * input's entry, not to this one. */
+ * `speed`. If `lambda` is an impulse, `share` is 1 and `speed` is the mean speed. Work on an input with a rate is not
+ * entered here, because it belongs to the input's entry. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
                                   wh_real *entry) {
@@ -57,8 +57,8 @@ WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* Call this with sign -1 before a crossing's assignments, and with sign 1 after them. The difference of the accounts is
- * the crossing's entry. */
+/* Adds `sign` times the energy and the momenta to the entry of crossing k. Call this with sign -1 before the crossing's
+ * assignments, and with sign 1 after them. */
 static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,
                                    wh_real sign) {

@@ -13,9 +13,9 @@ typedef struct wh_margins {
     wh_real all;
 } wh_margins;
 
-/* The path over `h` seconds. Its positions follow the cubic that has the positions and rates of both ends. Its rates
- * follow the cubic that has the rates and accelerations (a0, a1) of both ends. (The slope of the first cubic would be
- * one order less accurate, and magnify the positions' round-off by 1/h.) */
+/* The path over `h` seconds. Its positions follow the cubic through the positions and rates at both ends. Its rates
+ * follow a second cubic, through the rates and accelerations (a0, a1) at both ends. The slope of the first cubic
+ * would be less accurate. */
 typedef struct wh_contact_path {
     wh_real h;
     wh_contact_point begin;
@@ -69,8 +69,7 @@ WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Returns `margin`, the distance of contact k's force from its limit, or zero if it is negative only by the round-off
- * of the other contacts' forces. */
+/* Returns `margin`, the distance of contact k's force from its limit, or 0 if only round-off made this negative. */
 static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, wh_real margin) {
     wh_real others = WH_R(0.0);
@@ -96,7 +95,7 @@ WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Evaluates the margins at a point of the path, and work->force if an event depends on it. */
+/* Evaluates the margins at a point of the path. If wh_contact_watched(), also updates work->force. */
 static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_contact_point *at, const wh_real *input,
                                       wh_margins *m) {
@@ -149,8 +148,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     m->all = all;
 }
 
-/* True if no event has happened and all values are finite. A NaN is never below zero, so without the test for finite
- * values its contact would never have an event again. */
+/* True if no event has happened and all values are finite. (A margin that is NaN never counts as an event.) */
 WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
     WH_UNROLL
@@ -184,9 +182,8 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
-/* A hold whose condition was zero within round-off when the trial step began is released only if the condition falls
- * below -work->slack. If the hold has no event at the end of the trial step (`events`, bits), a lower condition before
- * the end is an error of the cubic, and is ignored. */
+/* Adds work->slack to the margins of the holds that have it. If such a hold is not in `events` (bits), the events at
+ * the end of the trial step, its margin does not become negative. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -198,8 +195,7 @@ WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* With several contacts, the search is not inlined: load sharing makes the deepest calls, and the variables of an
- * inlined search would add to that stack depth. */
+/* If there are several contacts, the search is not inlined, to save stack. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
 #else
@@ -223,7 +219,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     const unsigned at_end_events = wh_contact_happened(of, at_end);
     *events = at_end_events;
 
-    /* A negative margin at the start means an event at once, except for sliding friction: its rate starts at zero. */
+    /* A negative margin at the start is an event at the start, except for a sliding friction. */
     wh_contact_path_of(of, from, to, h, &path);
     wh_contact_margins(of, w, &path.begin, input, &probe);
     wh_contact_slacken(of, w, *events, &probe);
@@ -264,15 +260,14 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
     }
     wh_real reach = WH_R(1.0);
-    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* interval widths before the last two probes */
-    /* largest width after the next probe. From this width, the remaining probes still reach WH_BRACKET by halving */
+    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths before the last two probes */
+    /* After the next probe the interval has at most this width, so the later ones can halve it to WH_BRACKET. */
     wh_real most = WH_PROBES_SPARE;
     for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* If a margin is zero at `low`, its event may begin there. That is not so for a sliding friction or, after
-             * the first probe, for a force at its limit: other contacts may bear part of the load. */
+            /* A zero margin at `low` counts as a root: for a force only if `low` is 0, for a sliding friction never. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -281,9 +276,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* The guess is slightly beyond the estimated root, as seen from the nearer end, so that the root probably lies
-         * between that end and the guess. If it does not, the next guess is further beyond. If two probes did not halve
-         * the interval, the guess is its middle. */
+        /* `root` is an estimate. The guess is farther than `root` from the nearer end of the interval, so that the true
+         * root probably lies between that end and the guess. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;

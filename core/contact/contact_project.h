@@ -20,7 +20,7 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
 /* Adds the product a b to *sum, and its round-off to *rest, because the round-off would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
-    *sum += a * b; /* this addition is exact if the terms of opposite rotations cancel */
+    *sum += a * b; /* exact if opposite rotations cancel each other */
 }
 
 /* Returns the displacement of a straight hold k, rad or m: its constant J_k times the change of the coordinates. */
@@ -73,7 +73,7 @@ WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
-/* Stores the value that hold k keeps from now on (straight hold: zero slip). work->law must belong to the position. */
+/* Stores what hold k keeps: its present value, or slip 0 if it is straight. work->law must belong to the position. */
 WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
@@ -114,8 +114,8 @@ typedef struct wh_contact_place {
 
 #define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
 
-/* Projects positions onto the constraints; a stuck coordinate stays unless a stop is pinned to it. Returns true if the
- * displacement was so large that a second projection is needed. On entry, work->law and signal[] must belong to `s`. */
+/* Projects positions onto the constraints. Returns true if the displacement was so large that a second projection is
+ * needed. On entry, work->law and signal[] must belong to `s`. */
 static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_contact_place *spot, const wh_real *signal,
                                              const wh_real *input, wh_contact_state *s) {
@@ -148,7 +148,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
         if (off[i] != WH_R(0.0) && pin >= 0) {
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
             const wh_real rest = off[i] + entry * moved[pin];
-            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* not moved, or beyond this stop */
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) {
                 moved[pin] -= rest / entry;
                 wh_contact_move(of, (unsigned)pin, -rest / entry, s);
             }

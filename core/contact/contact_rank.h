@@ -71,8 +71,7 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* A single hold has lost rank only if its row has turned by almost half a turn. If the row has turned less, the
-         * step is merely coarse. */
+        /* The row of a single hold must have turned by almost half a turn: a smaller turn is only a coarse step. */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {
@@ -83,8 +82,8 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
 }
 
 /* Returns the hold that lost rank in a step of length `span`, or of->contacts. `to` is the end of the step, or NULL if
- * the step failed. Near a flat position the accelerations have no bound and may have moved `to` anywhere. So the state
- * that the rates alone would reach is tested, too. */
+ * the step failed. The function also tests the state that the rates would reach without accelerations, because
+ * accelerations have no bound near a flat position. */
 static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {

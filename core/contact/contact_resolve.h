@@ -29,9 +29,8 @@
 
 /* --- disturbance by crossings -------------------------------------------------------------------- */
 
-/* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A body beyond
- * a stop is moved back onto it, and the crossing's entry in the ledger gets the change of energy. A stop that moved, in
- * either direction, does not rest any more. Active holds capture again if their condition is still true. */
+/* Repairs the contacts in work->moved after a crossing's assignments. Bodies beyond a stop are moved back onto it.
+ * The stops become free. Active holds capture again if their condition is still true; otherwise they are released. */
 static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -100,12 +99,11 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sets the direction of each sliding friction to the sign of its rate, with three exceptions:
- * - The direction stays if the rate is opposite to it only by the error of location (work->slack).
- * - If the rate is negligible, compared with its change by friction in the time h, the friction sticks until
- * wh_contact_give_way() decides.
- * - A friction in `zeros` (bits) also sticks until then, unless an impulse of this moment changed its rate.
- *
+/* Sets the mode of each friction by its rate:
+ * - A friction sticks if friction could stop the rate in a negligible part of the time h.
+ * - A friction in `zeros` (bits) sticks unless an impulse of this moment has changed its rate.
+ * - Otherwise, if its rate is not 0, the friction slides in the direction of the rate. The old direction stays if the
+ *   rate is opposite to it only by the error of location (work->slack).
  * If h is not 0, work->law must belong to the position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
@@ -199,9 +197,8 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Sets the rates of the stuck frictions in work->turned to zero. The same projection includes all active contacts,
- * because otherwise two frictions could release each other. The other frictions in work->turned keep their sliding
- * direction, even if the small remaining rate has the opposite sign. */
+/* If a friction in work->turned sticks, projects the rates along all active contacts to zero. The sliding frictions in
+ * work->turned keep their direction, even if their small rate is opposite to it. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -317,10 +314,10 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Adapts the active contacts outside `but` (bits) to an input whose rate changed between two steps. A resting stop
- * stays active if its pressing force can bring the body to the new rate within the step. Otherwise it opens, or is hit
- * if the gap closes. Impulses correct the rates along contacts that stay active. Returns `but` and the stops that open;
- * *hits gets those that are hit (both as bits). work->law must belong to the position. */
+/* Adapts the active contacts outside `but` (bits) to input rates that changed between two steps. If the force of a
+ * resting stop cannot bring the body to the new rate within the step, the stop opens or is hit. Impulses correct the
+ * rates along the other contacts. Returns `but` and the stops that open, as bits. *hits gets the stops that are hit, as
+ * bits. work->law must belong to the position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {
@@ -349,9 +346,8 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
     return but;
 }
 
-/* Adapts contacts to inputs that changed between two steps. The body on a moved stop is moved back onto it, or falls if
- * the pressing force cannot close the gap within the step. Holds are projected, too. The ledger's entry of the last
- * moved contact gets the change of energy. */
+/* Adapts stops and holds to inputs that changed between two steps. A body that rests on a stop is moved with the stop,
+ * or falls if the force that presses it onto the stop cannot close the gap within the step. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];

@@ -90,8 +90,8 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Computes a trial step of length `left`. On entry a->next must be the step's start; on return it is the end. a->now
- * must also be the start if there are holds that can slip; otherwise it is not used. */
+/* Computes a trial step of length `left` from the state a->next, which becomes the step's end. If holds can
+ * slip, a->now must be the start, too. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -116,8 +116,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Sets work->slack of each active hold to the round-off of its condition, or to 0 if the condition was farther from
- * zero than that when the trial step began. The hold stays active until its condition is below -slack. */
+/* Sets work->slack of each active hold. If the condition was zero within round-off when the trial step began, the slack
+ * is this round-off, otherwise 0. The hold stays active until its condition is below -slack. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -310,7 +310,7 @@ static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_
     p->done = true;
 }
 
-/* Accepts the trial step. It ended at the step's end, or at a suspected dip where it did not touch the stop. */
+/* Accepts the trial step. */
 static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_contact_work *w,
                                             wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -331,7 +331,7 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     if (p->round == WH_EVENTS_MAX) {
         p->overran = p->overran || !p->calm;
         wh_contact_overrun(of, w, p->h, p->input, &a->next);
-        p->calm = false; /* so that undefined values of wh_contact_overrun() are refused */
+        p->calm = false; /* wh_contact_progress_end() then refuses undefined values */
     }
     p->end = &a->next;
     p->done = true;
@@ -398,8 +398,8 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     }
 }
 
-/* Resolves the events at attempt->now. At the last moment that a step allows, a stop may come to rest although it
- * would bounce. So if a stop comes to rest there, the step counts as an overrun. */
+/* Resolves the events at attempt->now. If a stop comes to rest at the last moment that a step allows, the step counts
+ * as an overrun, because the body might have bounced. */
 static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
                                               wh_contact_progress *p) {
     const bool last = ++p->round == WH_EVENTS_MAX;
@@ -456,8 +456,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
 }
 
 /* Does one step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact
- * in state->fault. Only values that the step uses must be finite. A trial step may leave an expression's domain after
- * an event, because the step is then shortened to end at this event. */
+ * in state->fault. A trial step may leave an expression's domain after an event, because it is then shortened to end
+ * at this event. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;
