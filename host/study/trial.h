@@ -8,7 +8,7 @@
 #include "host/study/reference_run.h"
 
 /* === settings ================================================================================= */
-/* The priced settings of a scene: every combination of the words of SETTING_AXES, each at several steps. */
+/* The priced settings of a scene: the possible combinations of the axes' words, each at several steps. */
 
 /* The options of `whirl run` and `whirl derive`, except the step. */
 typedef struct setting {
@@ -100,8 +100,9 @@ typedef struct trials {
 
 /* The results of one setting with one step length. */
 typedef struct trial_result {
-    bool ran;     /* false: stopped, or there is no image */
-    bool usable;  /* at all points the run reached its end, with an error below the largest value */
+    bool ran; /* false: stopped, or there is no image */
+    /* at all points the run reached its end, and its error is small enough (see `tolerated`) */
+    bool usable;
     double error; /* the largest of all points, in trial_unit() */
     bool bound;   /* `error` is a bound, the sum of the measured error and the reference's error */
     int point;    /* the point with the worst error */
