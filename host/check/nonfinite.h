@@ -27,7 +27,7 @@ int blamed_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Largest argument of sine and cosine, rad (core/number/sine.h). In float, turn angles have no limit. */
+/* Largest argument of sine and cosine, rad (core/number/sine.h). Exception: in float, turn angles have no limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
@@ -36,14 +36,14 @@ typedef struct nonfinite_at {
     const image *image;
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
-    bool turns;              /* the run is in float: each turn angle is an integer and has a sine */
-    double ahead_steps;      /* 0: searches this state; 1: also states up to two steps later */
+    bool turns;              /* the run is in float: sines of turn angles have no limit */
+    double ahead_steps;      /* 0: searches only this state; 1: also states up to two steps later */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
 /* Each function reports the first undefined expression, with its place and statement; false: there is none. */
 
-/* Searches the energies, losses, forces and equations, and their slopes. */
+/* Searches the energies, losses, forces, equations, and their derivatives. */
 bool nonfinite_term(const nonfinite_at *at, diags *errors);
 /* Searches the values that crossings set. */
 bool nonfinite_set(const nonfinite_at *at, diags *errors);

@@ -14,9 +14,9 @@
 
 enum { HALVINGS = 56 };  /* enough to locate a sign change on the path, down to round-off */
 #define FARTHER 2.5      /* if samples show only round-off, their distances grow by this factor */
-enum { TURNS_MOST = 4 }; /* sign changes that show round-off: a smooth expression has fewer */
-#define NEAR 0.2         /* they are counted up to this share of the distance to the part's end */
-#define FURTHER 1.4      /* each distance at which the sign is tested, divided by the one before */
+enum { TURNS_MOST = 4 }; /* an expression with at least this many sign changes is round-off */
+#define NEAR 0.2         /* sign changes are counted up to NEAR * (distance to the part's end) */
+#define FURTHER 1.4      /* ratio of successive distances at which the sign is tested */
 /* A value may touch zero if its tangents at the two ends cross below TOUCHES times the smaller end value. */
 #define TOUCHES 1e-3
 /* SECTIONS golden sections find the minimum of a value to its last digit. */
@@ -32,8 +32,8 @@ enum { GROWTH_POINTS = 10 }; /* number of sampled distances */
 #define GROWTH_BEYOND 1e60 /* an overflow is a pole only if the finite sample beside it is larger */
 
 typedef enum growth {
-    GROWTH_ROUGH, /* not steady: round-off or a zero; at greater distances it may be steady */
-    GROWTH_NONE,  /* steady, but no pole: a limit, or growth like one over a root */
+    GROWTH_ROUGH, /* not steady; growth at larger distances may be steady */
+    GROWTH_NONE,  /* steady, but slower than at a pole */
     GROWTH_POLE   /* steady, as at a pole */
 } growth;
 
@@ -172,8 +172,7 @@ static bool is_rounding(const looker *l, int i, double zero_at, double from, dou
     return turns >= TURNS_MOST;
 }
 
-/* Expression i overflows at the distance `from`. Is it very large at the next greater distance at which it is finite?
- * If not, the overflow comes from a difference that cancels to zero. */
+/* Expression i overflows at distance `from`. Is it very large at the next distance at which it does not overflow? */
 static bool overflows(const looker *l, int i, double zero_at, double from) {
     const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
@@ -193,12 +192,11 @@ typedef struct spot {
     bool touches; /* the value has no sign change */
 } spot;
 
-/* NEAREST: number of tested points nearest to the place. NINE_TIMES: the point about 9 times as far as the nearest. */
+/* NEAREST: number of nearest samples. NINE_TIMES: index of a sample about 9 times as far away as the nearest one. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 #define LEFT 0.05 /* relative tolerance of the value extrapolated to the place */
 
-/* Is the value above zero at the place, as x^2 + y^2 with y != 0 at x = 0? If so, each of the NEAREST samples is the
- * sum of the value at the place and a part that is quadratic in the distance. */
+/* Does the value have a minimum above zero at the place? If so, it grows with the square of the distance. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -333,14 +331,14 @@ int pole_on(const pole_way *w) {
 }
 
 /* === divisors ==================================================================================== */
-/* The divisors, which change their sign at a pole, and the expressions that may grow there.
+/* Finds the divisors that change their sign at a pole, and the expressions that may grow there.
  *
- * Divisors and bases of negative powers are split into factors. A factor of a highest derivative may depend on the
- * state: (k + s)*s' = -v*s. If so, the divisors in the solution for s' are tested, too. Values that depend on more than
- * the state, such as a rate recovered from a momentum, are not tested. */
+ * Divisors and bases of negative powers are split into factors. Solving (k + s)*s' = -v*s for the highest derivative s'
+ * divides by k + s, so this divisor is tested, too. A divisor is not tested if it depends on a highest derivative, or
+ * on a rate recovered from a momentum. */
 
 typedef struct divisor {
-    int node;      /* index in image_diagnostics.node; if `derived`, in the list IMAGE_BOOKS */
+    int node;      /* index in image_diagnostics.node, or in the list IMAGE_BOOKS if `derived` */
     bool of_a_tan; /* the divisor is the cosine of a tangent's argument */
     bool derived;
     bool leaps;    /* an event may change the value abruptly */
@@ -383,7 +381,7 @@ static bool leaps(const image *im, const diagnostics_node *n) {
     return set;
 }
 
-/* Is the node nonlinear in the moving values? */
+/* Is the node a nonlinear function of those of its operands that depend on the state? */
 static bool bends(const denominators *d, const diagnostics_node *n, const int *of, int count) {
     const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
     const bool second = count > 1 && (d->is[of[1]] & MOVES) != 0;
@@ -497,7 +495,7 @@ static void find_questions(denominators *d) {
     }
 }
 
-/* Does a factor of a highest derivative depend on the state? If so, the solution for this derivative has a divisor. */
+/* Is a highest derivative multiplied or divided by a value that depends on the state? */
 static bool has_factors_that_move(const denominators *d) {
     const image *im = d->at.image;
     for (int i = 0; i < im->diagnostics.nodes && !im->has_energies; i++) {
@@ -511,7 +509,7 @@ static bool has_factors_that_move(const denominators *d) {
     return false;
 }
 
-/* Adds the divisors of the list that solves for the slopes, split into factors. */
+/* Adds the factors of all divisors in the list IMAGE_BOOKS. */
 static void find_derived(denominators *d) {
     const op_list *t = d->at.image->list[IMAGE_BOOKS];
     bool *divides = alloc(t->count, sizeof *divides);
@@ -571,7 +569,7 @@ static void denominators_see(denominators *d, const double *state) {
     for (int i = 0; i < d->ordered; i++) {
         d->at.value[d->order[i]] = blamed_node(&d->at, &im->diagnostics.node[d->order[i]]);
     }
-    if (d->field != NULL) { /* denominators_value() reads the operations of the slope */
+    if (d->field != NULL) { /* evaluates the operations that denominators_value() reads */
         double slope[3 * IMAGE_COMPONENTS_MAX];
         vector_field_slope(d->field, state, slope);
     }
@@ -615,8 +613,8 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* The index in image_diagnostics.question of the expression value[value] of pole_way.at(). A slope has none:
- * the result is the first one that contains this highest derivative. */
+/* Index in image_diagnostics.question of the expression with index `value` in pole_way.at(). For a slope, this is the
+ * first question that contains the highest derivative of the same unknown. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {
@@ -633,7 +631,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* Smallest tested distance from a place, as a part of a component's value; below it there is only round-off. */
+/* The smallest tested distance from a place changes a component by this share of its value. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {
@@ -714,7 +712,7 @@ static double relative_way_of(const pole_crossing *j, int c) {
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
 }
 
-/* The largest relative change of the components on which this divisor may depend; if it is derived, these are all. */
+/* Largest relative change of the components on which this divisor depends. A derived divisor may depend on all. */
 static double relative_way(const pole_crossing *j, const divisor *d) {
     double most = 0.0;
     for (int c = 0; c < j->components && d->derived; c++) {

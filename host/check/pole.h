@@ -1,6 +1,6 @@
 /* pole.h: detects steps that jump over a pole, or through a contact (missed.h). No motion passes a state at which an
- * expression grows without bound, such as x'/(v0 + x') at x' = -v0. But a step over the pole does not evaluate the
- * expression near it. A step of half the length may not either; then the run and its finer run agree.
+ * expression grows without bound, such as x'/(v0 + x') at x' = -v0. But a step can jump over this state without
+ * evaluating the expression near it. If the finer run jumps over it, too, the two runs can agree.
  *
  * Values that change their sign at a pole are evaluated after each step. After a sign change the path between the two
  * states is tested for a pole. In a step with events, divisors that depend on values set by the event are not tested:
@@ -35,9 +35,8 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j);
  *
  * At a pole, a divisor changes its sign and an expression grows. Halving locates the sign change. Each expression is
  * sampled towards that place from both sides, at the smallest distances at which round-off does not hide its growth.
- * The place is a pole if an expression grows about as fast as 1/distance. It is no pole if the expressions have limits,
- * grow unevenly, or grow as slowly as 1/sqrt(distance), which is integrable. If the place is no pole, the path on both
- * sides of it is searched for others: 1 + k/s changes its sign at its zero s = -k, and at its pole s = 0.
+ * The place is a pole if an expression grows about as fast as 1/distance. Slower growth, such as
+ * 1/sqrt(distance), is integrable. If the place is no pole, the path on both sides of it is searched.
  *
  * A divisor that only touches zero, such as 1 - cos(q), does not change its sign. If its tangents at both ends of a
  * part of the path permit it to touch zero, golden sections find its least magnitude. This place is tested as above. */
@@ -53,7 +52,7 @@ typedef struct pole_way {
 } pole_way;
 
 /* May a value touch zero on a path? value[]: its samples at the shares 0, POLE_ASIDE, 1 - POLE_ASIDE and 1. The
- * magnitude is assumed to stay above its tangents at both ends, as a square does. */
+ * magnitude of the value is assumed to be convex. */
 #define POLE_ASIDE 0x1p-20
 bool pole_may_touch(const double value[static 4]);
 

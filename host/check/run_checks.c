@@ -64,15 +64,14 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The remaining budget, relative to BUDGET_LEAST, minus the remaining share of the steps. While this is below 0, the
- * search for poles skips steps. This spreads the searched steps over the whole run. */
+/* Remaining budget / BUDGET_LEAST, minus the remaining share of the steps. Below 0, poles are not searched. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
     return budget_left(v->budget) / BUDGET_LEAST - share;
 }
 
-#define BEHIND (-1.0 / 16.0) /* below this part_left() the finer run is too expensive, and ends */
+#define BEHIND (-1.0 / 16.0) /* if part_left() is below this, the finer run ends */
 
 void run_checks_enter(run_checks *v) {
     budget_begin(v->budget);
@@ -118,7 +117,7 @@ static bool is_right(const run_checks *v) {
     return right;
 }
 
-/* If the error of the integration rule may be as large as the residual, the finer run decides. */
+/* A residual below the error of the integration rule is not reported if the finer run agrees with the run. */
 static void judge_energy(run_checks *v) {
     const energy_residual *b = &v->balance;
     if (!b->known || b->exact) {
@@ -140,7 +139,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* In float, a coordinate with less than this part of the energy has a rate below the round-off of other rates. */
+/* In float, a coordinate is not judged if its share of the energy is below this. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -150,7 +149,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     double own = 0.0;
-    double fastest = 0.0; /* the larger of `own` and the largest difference between the two runs */
+    double fastest = 0.0; /* the larger of `own` and the largest error of this rate */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
@@ -163,7 +162,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* Is column k an angle of a float run, with an error no larger than the round-off of such an angle? */
+/* Is column k an angle of a float run, with an error of at most SLOW_LEAST_RAD? */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->doubling->column[k];
     const int own = image_find_component(v->image, v->doubling->shape->column[k].unknown, 0);
@@ -171,7 +170,7 @@ static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
            own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
 }
 
-/* Is column k judged? With contacts, rates are not: they jump at impacts, perhaps not in the same step of both runs. */
+/* Is column k judged? With contacts, rates are not: an impact may be in different steps of the two runs. */
 static bool is_asked(const run_checks *v, int k) {
     const record_column *c = &v->doubling->shape->column[k];
     return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->doubling, k) &&
@@ -183,22 +182,20 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* Is an error reported that reaches the early tolerance at early_s, and the tolerance at until_s? See finding.h. */
+/* Is an error with these two times reported? See FINDING_ACCURACY in finding.h. */
 static bool is_off(const run_checks *v, double until_s, double early_s) {
     return early_s <= RUN_CHECKS_BEGIN * v->doubling->end_s ||
            until_s >= RUN_CHECKS_GROWS * early_s;
 }
 
-/* Did the error of a position grow within a few steps? Then the steps do not resolve the motion, as near a singularity
- * of the coordinates. In a resolved chaotic motion errors grow more slowly. */
+/* Did the error of a position grow within a few steps? Errors of a resolved chaotic motion grow more slowly. */
 static bool is_sudden(const run_checks *v, int k, double until_s, double early_s) {
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
     return v->image->contacts == 0 && v->doubling->shape->column[k].primes == 0 &&
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* The column whose error exceeds the tolerance first, at *until_s; -1: none. Skips columns that are not is_off(), or,
- * with the tolerances of a sudden error, not is_sudden(). */
+/* Returns the column that exceeds the tolerance first, at *until_s, or -1. `sudden`: searches sudden errors only. */
 static int first_error(const run_checks *v, bool sudden, double *until_s) {
     const double tolerance = sudden ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE;
     const double early_tolerance =
@@ -221,7 +218,7 @@ static int first_error(const run_checks *v, bool sudden, double *until_s) {
     return found;
 }
 
-/* Differences after cut_s count as infinite. They are errors only if the finer run failed; else nothing is known. */
+/* An error that begins at or after cut_s is reported only if the finer run failed. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->doubling;
     double until_s = 0.0;
