@@ -3,9 +3,8 @@
  * Two slot pulses per turn measure the rotor's position; between pulses the model predicts it from gravity, motor and
  * inertia. The model, a scene (eccentric.whirl, rig_fixed), gets the same drive as the rig. At each pulse the
  * innovation corrects the scene's angle, its speed, and a disturbance torque that is added to the drive (for the
- * bearings' torque, or an error of the supply). This is a Luenberger observer. If speed and torque are expressed in
- * units of a turn's duration, its gains are constants (Luenberger, IEEE Transactions on Automatic Control 16 (1971)
- * 596).
+ * bearings' torque, or an error of the supply). This is a Luenberger observer. Its gains are constants if the unit of
+ * time is the duration of a turn (Luenberger, IEEE Transactions on Automatic Control 16 (1971) 596).
  *
  *     every control step, in this order:
  *         wh_observer_step(..., now_ticks, drive)      the drive since the last control step
@@ -35,7 +34,7 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_RIG_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_RIG_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                   /* largest magnitude of the torque */
-    /* trusted_pulses successive innovations of at most trusted_rad make the observer valid. A larger one ends this. */
+    /* The observer is valid after trusted_pulses successive innovations of at most trusted_rad, until a larger one. */
     wh_real trusted_rad;
     uint32_t trusted_pulses;
     wh_real lost_rad;      /* a larger innovation restarts the observer; < pi */
@@ -63,9 +62,8 @@ typedef struct wh_observer {
 
 /* The configuration for the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen
  * for 80 to 400 rpm and for rotors with 0.5 to 6 times the scene's inertia, 0.7 to 1.3 times its gravity and up to 0.2
- * N m of friction. Each turn multiplies the errors of angle, speed and torque by a matrix. At a steady speed, its
- * spectral radius is 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. Near the top, which the
- * rotor passes between sensors 2 and 1, gravity increases the errors, mainly at low speed. */
+ * N m of friction. At a steady speed, the errors of angle, speed and torque decay from turn to turn. The spectral
+ * radius is 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \

@@ -35,7 +35,7 @@ typedef struct wh_run_config {
     wh_real take_over_radps; /* speed at which the control loop closes */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    /* The speed of the last turn, or the mean of the last WH_RUN_TURNS, may differ from the target by this much. */
+    /* half-width of the band about the target; the last turn or the mean of WH_RUN_TURNS turns must be in the band */
     wh_real settle_band_radps;
     wh_real settle_s;          /* least time within the band before the record */
     wh_real settle_max_s;      /* longest time to settle */
@@ -117,15 +117,15 @@ const char *wh_phase_text(wh_rig_phase phase);
 
 /* === bounds on the speed and time of the next slot pulse, from the drive's set-point ========= */
 
-/* Sets run->left_radps, and the bounds and the window of *pulses for the pulse captured at `ticks`. Call it before
- * wh_pulses_take(), with the motor on or off. If the motor neither drives nor brakes, `open` is true. The bound then
- * allows for a lighter rotor, because gravity changes its speed more. */
+/* Sets run->left_radps, and bound_radps, climb_radps2 and window of *pulses, for the pulse captured at `ticks`. Call it
+ * before wh_pulses_take(), with the motor on or off. `open`: the motor neither drives nor brakes. bound_radps is then
+ * higher (WH_GUARD_LIGHTER). */
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks);
 
 /* Lowers run->off_radps to the speed since the last pulse. Call it before wh_pulses_take(), with the motor off. If a
- * sensor fires twice in succession, this forgets the speed, because the rotor swings in the slot or a pulse was missed.
- * It also sets or clears pulses->slow, which needs `brakes`. */
+ * sensor fires twice in succession, it calls wh_pulses_forget(): the rotor swings, or a pulse was missed. It also
+ * updates pulses->slow, which is false if the motor does not brake. */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 

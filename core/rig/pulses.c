@@ -3,14 +3,14 @@
 
 #include "datasheet.h"
 
-#define TWICE_PART WH_R(0.5) /* within this part of a turn, a sensor sees the slot only once */
+#define TWICE_PART WH_R(0.5) /* least part of a turn between two true pulses of a sensor */
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
 #define DOUBT 2U
-/* If pulses->slow, one interval counts as two if its speed is above this multiple of bound_radps. */
+/* If pulses->slow, a speed above this multiple of bound_radps adds 2 to pulses->fast. */
 #define SUDDEN WH_R(1.6)
-#define SURE_PART WH_R(0.125) /* after this part of a turn no pulse can reject the last one */
+#define SURE_PART WH_R(0.125) /* a pulse is confirmed after this part of a turn */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
@@ -67,15 +67,13 @@ static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) 
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
-/* Accepts a pulse that gives the speed `after`. pulses->before must be the speed before this pulse. If this pulse
- * replaces the last one, pulses->before must not include that one. */
+/* Accepts a pulse that changes the speed from pulses->before to `after`. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
     pulses->fast =
         is_fast(pulses, after) ? pulses->fast + (is_sudden(pulses, after) ? 2U : 1U) : 0U;
     pulses->alternate = alternates ? pulses->alternate + 1U : 0U;
-    /* the excess over the permitted rise; a disturbance causes one at only one of two successive pulses */
     const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
     const wh_real beyond = after->turn_radps - before->turn_radps - may;
     pulses->climb_radps = before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
@@ -102,14 +100,12 @@ static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *
     accept(pulses, pulse, after);
 }
 
-/* Counts a false pulse. Apart from bounces, disturbances are rare: if there are many, the measured speed is wrong. */
 static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->rejected++;
     pulses->doubt += doubt;
 }
 
-/* Decides about a suspect when the next pulse comes. The suspect is rejected if the next pulse gives a likely speed
- * without it, and if the two pulses are of one sensor or do not fit together. */
+/* Accepts or rejects the suspect. `pulse` is the next pulse after the suspect. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
@@ -118,8 +114,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* Both pulses may be true if no pulse was lost in between and their speed is likely. If a false suspect would also
-     * mean a lost pulse, any speed fits, because a false pulse together with a lost one is less likely. */
+    /* Any speed fits if without.lost has risen: a false pulse together with a lost one is unlikely. */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
@@ -173,7 +168,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* After a short interval or an early pulse, a second one shows a faster rotor, not a disturbance. */
+    /* Two short intervals or early pulses in succession show a faster rotor, not a disturbance. */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;

@@ -31,8 +31,8 @@ typedef struct wh_index_pulse {
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is set: the next pulse decides about it */
     bool waits;    /* the last pulse is not yet confirmed */
-    bool alert;    /* the last pulse was early. If the next one is, too, the rotor is faster */
-    /* Set by the caller: motor off, rotor almost at rest. An interval far above bound_radps then counts as two. */
+    bool alert;    /* the last pulse was early: the next pulse is no suspect, even if early */
+    /* Set by the caller: motor off, rotor almost at rest. A speed far above bound_radps then adds 2 to `fast`. */
     bool slow;
     wh_real bound_radps;  /* set by the caller: limit on the speed between two pulses, or 0 */
     wh_real window;       /* set by the caller: fraction of a turn by which a pulse may be early */
@@ -42,7 +42,7 @@ typedef struct wh_pulses {
     wh_real climb_before_radps; /* climb_radps at the previous pulse */
     unsigned fast;              /* number of successive intervals with a speed above bound_radps */
     unsigned alternate;         /* number of successive pulses that alternate between the sensors */
-    unsigned doubt;    /* each false pulse (no bounce) adds 2; each unsuspicious one subtracts 1 */
+    unsigned doubt;    /* +2 at a false pulse that is no bounce, -1 at a pulse accepted at once */
     uint32_t rejected; /* number of rejected pulses */
     wh_pulse suspect;
     wh_index_pulse last; /* the last pulse */

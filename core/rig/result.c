@@ -10,20 +10,18 @@
 /* Largest part of gravity that the compensation may leave. If it leaves more, its angle or size is wrong. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* The ripple's error may exceed the phase's half-width by this much, because the rotor's damping may differ from the
- * configured one. The quadrature ratio transfers 1/sqrt(2) of the ripple's error to the phase. */
+/* ripple_off_rad may exceed the phase's half-width by this much, because the configured damping has an error. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* Limits on sums of squared coefficients, in units of a coefficient's variance. Noise alone exceeds each of them in one
- * of 100,000 results (chi-squared). REPEATS_NOISE is for four harmonics (eight coefficients), THIRD_NOISE for the third
- * alone (two). The third contains the whole effect of a nonlinearity, or of a torque twice per turn. */
+/* Limits on sums of squared coefficients, in units of a coefficient's variance: REPEATS_NOISE for harmonics 3 to 6
+ * (eight coefficients), THIRD_NOISE for harmonic 3 (two). Noise exceeds each limit in one of 100,000 results. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
 /* The sum of these terms limits a healthy rig's repeating residual, as a fraction of the force, without noise and
  * jitter (tests/host/test_repeats_truth.c). turn_angle.h defines psi, E, A and `cut`. */
 #define REPEATS_LAG WH_R(0.4)    /* times psi E^2: effect of the damping */
-#define REPEATS_ARROW WH_R(1.6)  /* times E and ripple_off_rad */
+#define REPEATS_ARROW WH_R(1.6)  /* times E ripple_off_rad: effect of the ripple's error */
 #define REPEATS_CUT WH_R(0.29)   /* times `cut`: effect of a motor that cannot brake enough */
 #define REPEATS_TWICE WH_R(6.0)  /* times A: effect of the carriage */
 #define REPEATS_CELL WH_R(1e-4)  /* constant: nonlinearity of the cell */
@@ -109,8 +107,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* The expected force is S <w^2>, a mean over the angle. A term E sin u of theta multiplies <w^2> by 1 + 3/2
-     * E^2. The term A sin(2u) counts as E = 2 A, because it changes the speed by the fraction 2 A. */
+    /* The expected force is S times the mean of the squared speed over the angle. This mean is (2 pi/turn_s)^2 times
+     * 1 + 3/2 (E^2 + (2 A)^2). */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -138,18 +136,17 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
     }
 }
 
-/* Returns the part of the phase's variance that the pulses' jitter causes and the turns' scatter does not show. */
+/* Returns the variance that jitter gives the phase, rad^2, without the share that scatter_N2 contains. */
 static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* Turns share pulses, so the mean of n phases has the variance jitter2/n. The scatter shows half of it. */
+    /* The mean phase has the variance jitter2 / turns, because turns share pulses. scatter_N2 contains half of this. */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->ratios == 0) {
         return shared;
     }
-    /* The quadrature ratio follows from three pulses. With sensor 2 at a quarter turn, they add 1, 9/16 and 1/16 of a
-     * pulse's variance, together 1.625. The 1.0 is the covariance with the phases: on average, half of the merged turns
-     * are in the ratio's estimate. */
+    /* 1.625 jitter2 is the variance of a quadrature ratio: its three pulses add 1, 9/16 and 1/16 of jitter2 (sensor 2
+     * at a quarter turn). 1.0 is the covariance of ratio and phase. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);
@@ -182,7 +179,7 @@ static wh_real t2_of(const wh_merge *merge) {
     return student * student;
 }
 
-/* Stores the squared scatter temporarily in the half-widths: along the mean force vector, and across it, N^2. */
+/* Sets amplitude_half_N and phase_half_rad to squared half-widths, N^2: the scatter along and across the force. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -208,8 +205,7 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* If the compensation's angle is wrong, another ripple remains, a quarter turn after E's. The quadrature
-         * ratio mistakes it for a change of E. */
+        /* ripple that an error of the compensation's angle causes; the quadrature ratio mistakes it for E's */
         .quadrature =
             angle->compensated ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
@@ -276,11 +272,9 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
 }
 
-/* Returns the length of the difference between two vectors: the speed ripple found from the load, and that of the angle
- * model. A ripple has the length E and the direction psi - gamma. The force's second order has the same direction, and
- * 3/2 E/(1 + 3/2 E^2) times the amplitude of the first order. An error of the model's ripple changes the second order
- * by 3/2 of the error. It also changes the model's angle, which adds 1/2. So the difference is halved. A delay has
- * hardly any effect, because twice the first order's phase is subtracted. The cell's gain has none. */
+/* Returns the error of the angle model's ripple, rad, from the force's second order. The model expects a second order
+ * in the direction psi - gamma, with 3/2 E/(1 + 3/2 E^2) times the amplitude of the first order. An error of E changes
+ * the second order by 3/2 of the error, and by 1/2 more through the model's angle. So the difference is halved. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
@@ -311,8 +305,7 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
-/* If the motor cannot brake enough, the residual does not show errors of the cell. So force and phase may differ from
- * the expected values only by their half-widths, plus these possible errors of the expected values. */
+/* If angle->cut > 0, amplitude and phase may be off by their half-widths plus these (fraction of the force, rad). */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 
@@ -378,7 +371,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    /* seen_rad leaves out the calibration's part, because the ripple's error hardly depends on the calibration */
+    /* seen_rad is phase_half_rad without the calibration's error, which hardly affects ripple_off_rad */
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);
