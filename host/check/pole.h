@@ -35,8 +35,8 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j);
  *
  * At a pole, a divisor changes its sign and an expression grows. Halving locates the sign change. Each expression is
  * sampled towards that place from both sides, at the smallest distances at which round-off does not hide its growth.
- * The place is a pole if an expression grows about as fast as 1/distance. Slower growth, such as
- * 1/sqrt(distance), is integrable. If the place is no pole, the path on both sides of it is searched.
+ * The place is a pole if an expression grows about as fast as 1/distance. It is no pole if all
+ * grow more slowly, such as 1/sqrt(distance), which is integrable. Then the path on both sides is searched, too.
  *
  * A divisor that only touches zero, such as 1 - cos(q), does not change its sign. If its tangents at both ends of a
  * part of the path permit it to touch zero, golden sections find its least magnitude. This place is tested as above. */
