@@ -31,7 +31,7 @@ typedef union real_bits {
 /* Returns sqrt(x), rounded to nearest, bit by bit. x and the root have FRACTION_BITS after the point. */
 static word root_of(word x) {
     word rest = x << 1;
-    word twice = 0; /* twice the root so far, shifted to the next bit's place */
+    word twice = 0;
     word root = 0;
     for (word bit = ONE << 1; bit != 0; bit >>= 1) {
         if (twice + bit <= rest) {
@@ -92,7 +92,7 @@ wh_real wh_sqrt(wh_real x) {
         }
     }
     fraction |= ONE;
-    if (exponent % 2 == 0) { /* BIAS is odd, so exponent - BIAS is odd */
+    if (exponent % 2 == 0) { /* exponent - BIAS is odd, because BIAS is odd */
         fraction <<= 1;
     }
     /* the root's leading bit increments the exponent */

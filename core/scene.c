@@ -176,11 +176,11 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
     return status;
 }
 
-/* Returns part / of, rounded to the nearest real, for 0 <= part < of < 2^63. The result may be one. Long division: the
+/* Returns part / of, rounded to the nearest real, for 0 <= part < of < 2^63. The result may be 1. Long division: the
  * quotient has one bit more than a real, and a sticky bit stands for the lower bits. */
 static wh_real rounded(uint64_t part, uint64_t of) {
     const unsigned bits = sizeof(wh_real) == sizeof(float) ? 25 : 54;
-    wh_real unit = WH_R(1.0); /* at the end: the value of the sticky bit */
+    wh_real unit = WH_R(1.0);
     uint64_t quotient = 0;
     if (part == 0) {
         return WH_R(0.0);
@@ -203,7 +203,7 @@ static wh_real rounded(uint64_t part, uint64_t of) {
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
     const wh_fraction step = scene->step;
     wh_time time = {0, wh_scene_time_s(scene, state)};
-    /* Converts to 32 bits twice. On small cores, a conversion to 64 bits would need double arithmetic. */
+    /* Two conversions to 32 bits, because a conversion to 64 bits needs double arithmetic on small cores. */
     if (step.denominator == 0) {
         const wh_real high = time.fraction_s * WH_R(0x1p-24);
         const uint32_t upper = high < WH_R(0x1p32) ? (uint32_t)high : UINT32_MAX;
@@ -264,7 +264,6 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
 }
 
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
-    /* the rates follow the linear positions, of which there are (reals - angles) / 2 (wh_form) */
     return state->real == NULL ? NULL : state->real + (scene->reals - scene->angles) / 2;
 }
 

@@ -49,8 +49,8 @@ struct wh_scene {
     uint8_t inputs;   /* number of values that may change between steps */
     uint8_t outputs;  /* number of outputs, computed by observe() */
     uint8_t contacts; /* number of stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
-    uint8_t held;     /* number of holds whose expression is curved, or has several coordinates */
-    uint8_t driven;   /* number of inputs with a rate; they set the coordinates of highest index */
+    uint8_t held;     /* number of holds whose expression is curved or has several coordinates */
+    uint8_t driven;   /* number of inputs with a rate; each sets one of the last coordinates */
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     wh_fraction step; /* step_s as an exact fraction, for wh_scene_time(); {0, 0}: not known */
@@ -79,9 +79,8 @@ struct wh_scene {
 #define WH_NUMBER_BYTES(angles, all_reals) \
     (WH_SIZE(angles) * sizeof(wh_angle) + WH_SIZE(all_reals) * sizeof(wh_real))
 
-/* For arrays sized by hand: number of eight-byte words of caller memory, enough for float and double and for
- * compensated sums. To WH_STATE_WORDS, add the words for contacts, for wh_scene.held holds, and for a ledger. `entries`
- * and `accounts` are members of its wh_ledger_form. */
+/* For arrays sized by hand. The sum of these four macros is a number of eight-byte words that is enough for float and
+ * double, and for compensated sums. WH_LEDGER_WORDS takes members of wh_ledger_form; omit it without a ledger. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
     (WH_SIZE(angles) + (2U * WH_SIZE(reals) + WH_SIZE(angles) + WH_SIZE(inputs)))
 
@@ -107,8 +106,8 @@ struct wh_scene {
  * the run. Returns WH_OK; or an error, with the memory untouched and the state not started:
  * - WH_E_MEMORY: the memory is too small or NULL.
  * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, wh_method_takes() is false for the scene, or the
- * scene has too many contacts. Whirl generates no scene with the last two errors.
- * - WH_E_ARITHMETIC: compiler flags or the machine's modes change results (state->fault: which). */
+ * scene has too many contacts.
+ * - WH_E_ARITHMETIC: compiler flags or the machine's modes change results. state->fault is the failed check. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
@@ -123,11 +122,11 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
 
 /* Correct one component of the state from a measurement, between two steps; SI units. The generated header has the
  * indices for `real` and `angle`: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds by_rad
- * to the angle. After many turns, this is more accurate in float than to set the angle.
+ * to the angle. In float, after many turns, it is more accurate than wh_scene_set_angle().
  *
  * The next step begins like the first step of a run: it moves a coordinate beyond a stop back onto the stop, and finds
- * every contact's mode again. Each hold then keeps its present value. The low part of the corrected component becomes
- * 0. A ledger stores the change of each account separately (wh_ledger_corrected()).
+ * every contact's mode again. Each closed hold then keeps the value that its expression has. A ledger stores the
+ * change of each account separately (wh_ledger_corrected()).
  *
  * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged. The errors are: the state was not started, the index is
  * unknown, an input with a rate sets the component, or the value is not finite or out of bounds. */
@@ -148,7 +147,7 @@ wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 /* Returns a hash of steps, angles, reals, holds' values and contact modes, equal on all machines; 0 if not started. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
-/* Returns the first rate of a second-order scene, in state->real; NULL for a state that was not started. */
+/* Returns the address of a second-order scene's rates in state->real, or NULL if the state was not started. */
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 
 const char *wh_status_text(wh_status status);

@@ -5,7 +5,7 @@
 #define ANGLE_MOST WH_R(1e9)
 
 static bool has_books(const wh_scene *scene, const wh_state *state) {
-    return scene->ledger != NULL && state->steps > 0; /* the first step stores the first levels */
+    return scene->ledger != NULL && state->steps > 0; /* the first step starts the ledger */
 }
 
 /* Sets component number `at` (angles first) to *angle or *real. The other pointer is NULL. */

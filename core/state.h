@@ -15,7 +15,7 @@ WH_C_BEGIN
  * First order (systems stated directly): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
-/* In one step, WH_EVENTS_MAX moments can have events, and the first WH_EVENT_LOG events are logged and counted. */
+/* One step handles events at up to WH_EVENTS_MAX moments. It logs and counts only its first WH_EVENT_LOG events. */
 #define WH_EVENTS_MAX 8
 #define WH_EVENT_LOG 16
 
@@ -25,7 +25,7 @@ typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 /* Modes of a contact. A sliding friction's mode is the sign of its rate, a crossing's the sign of its value. */
 enum {
     WH_FREE = 0,   /* stop that is not touched, or released hold */
-    WH_ACTIVE = 1, /* resting stop, or closed hold */
+    WH_ACTIVE = 1, /* stop on which a body rests, or closed hold */
     WH_STUCK = 0,  /* sticking friction */
     WH_UNSET = 127 /* after the start and after a correction, until the next step */
 };
@@ -38,7 +38,7 @@ typedef struct wh_event {
 } wh_event;
 
 typedef struct wh_contacts {
-    uint64_t events; /* number of events since the start */
+    uint64_t events; /* number of logged events since the start */
     /* Number of steps whose motion may be wrong, because a step can handle only WH_EVENTS_MAX moments with events, or
      * because the search for the contact forces reached its limit. */
     uint64_t overruns;
@@ -55,8 +55,8 @@ typedef struct wh_state {
     wh_real *carry;  /* [scene->angles + scene->reals] low parts; NULL: sums are not compensated */
     wh_real *input;  /* [scene->inputs] SI units; the caller may set them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held;   /* [scene->held] SI units. Curved hold: kept value. Straight hold: slip. */
-    wh_real *ledger; /* totals, their carries, other reals (ledger.h); NULL: no ledger */
+    wh_real *held;         /* [scene->held] SI units: value (curved hold) or slip (straight hold) */
+    wh_real *ledger;       /* totals, their carries, other reals (ledger.h); NULL: no ledger */
     /* After WH_E_DIVERGED: index of the component, angles first, then reals. After WH_E_UNDEFINED or WH_E_SINGULAR:
      * index of the contact (contact.h). After WH_E_ARITHMETIC: the failed check, a wh_probed (arithmetic.h). */
     int fault;

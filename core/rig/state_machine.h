@@ -17,7 +17,7 @@ WH_C_BEGIN
     X(WH_RIG_IDLE, "idle")         /* motor off; the guard checks the rotor */ \
     X(WH_RIG_ARMED, "armed")       /* motor off; `start` is allowed for a minute */ \
     X(WH_RIG_RUNNING, "running")   /* a test run: phases.h has its phases */ \
-    X(WH_RIG_STOPPING, "stopping") /* slowing down, or motor off and the rotor not yet at rest */ \
+    X(WH_RIG_STOPPING, "stopping") /* phase `ramp down` or `coast`, until the rotor rests */ \
     X(WH_RIG_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 
 /* Events: X(name, words). The orders from outside come first, then the rig's own events. */
@@ -77,7 +77,7 @@ typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refu
 
 typedef struct wh_rig_transition {
     wh_rig_state next;  /* the state after the event, unless rig.c refuses the event */
-    wh_refusal refusal; /* WH_ALLOWED, or the reason; `next` is then the present state */
+    wh_refusal refusal; /* if it is not WH_ALLOWED, `next` is the present state */
 } wh_rig_transition;
 
 /* Look up the table. An unknown event or state gives a refusal. */

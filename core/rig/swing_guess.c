@@ -36,7 +36,7 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* The period is longer than that of a small swing. The difference is smaller after more swings. */
+    /* guess: period of these swings, divided by that of a small swing */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
@@ -71,7 +71,7 @@ void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing) {
     }
 }
 
-/* Mean loss of the squared speed from hanging (q = 0) to 90 deg, divided by g: the mean of 4 sin^2(q/2). */
+/* Loss of squared speed at q, divided by g: 4 sin^2(q/2). This is its mean from q = 0 (hanging) to 90 deg. */
 #define FALLEN WH_R(0.727)
 
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
@@ -95,7 +95,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
     x[WH_FREE_GRAVITY] = gravity;
-    /* (2 passed + 1) quarter swings reduce the amplitude A to 0, each by friction/gravity. A is about 2.3 sin(A/2). */
+    /* The amplitude is at first about 2.3 sine. Each of 2 passed + 1 quarter swings reduces it by friction/gravity. */
     x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_FREE_Q] =

@@ -8,7 +8,7 @@
 /* Largest E for which the series in turn_angle.h is valid. With a larger E the rotor almost stops at the top. */
 #define SWING_MOST WH_R(0.35)
 
-/* Least derivative of the quadrature ratio with respect to E at which E is estimated. */
+/* E is not estimated if the quadrature ratio's derivative with respect to E is less than this. */
 #define SLOPE_LEAST WH_R(0.15)
 
 /* The first quadrature ratios correct a large error of the inertia by Newton's method. Later ratios are averaged. */
@@ -56,15 +56,14 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real sine = tangent * cosine;
     const wh_real lambda = small_arc(sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
-    /* u = base + phi + psi - gamma. So the term's angle, 2 (base + phi) + lambda, is 2 u plus the angle of `turned`. */
+    /* 2 (base + phi) + lambda, in the further term of turn_angle.h, is 2 u plus the angle of `turned`. */
     const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* Adds the effect of a motor that cannot brake as much as commanded. If -sin(theta - gamma) is more than k, the torque
- * S g (-sin(theta - gamma) - k) remains. S g k is the torque at standstill that the drive's own voltage gives. The
- * Fourier series of the remaining torque has a term of twice the angle. */
+/* Adds the effect of a clipped compensation (turn_angle.h). With k = held_Nm / weight_Nm, the torque
+ * S g (-sin(theta - gamma) - k) remains while it is positive. Its Fourier series has a term of twice the angle. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
@@ -158,8 +157,7 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
-        /* The ratio hardly depends on E. If to.sine - from.sine is large, the inertia is too small: the effect of psi
-         * cancels that of E. Otherwise gravity acts along a diagonal, and no inertia helps. */
+        /* If to.sine - from.sine is large, the inertia is too small: the effect of psi cancels that of E. */
         if (!angle->compensated && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }
@@ -178,7 +176,7 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
             WH_R(1.0));
         return off;
     }
-    /* d ln E / d ln I = -cos^2 psi. One pulse changes the inertia by at most a factor of two. */
+    /* d ln E / d ln I = -cos^2 psi */
     const wh_real change = within(-off / (ratio_per_ripple * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;

@@ -15,19 +15,19 @@
  * sensor 2's pulse. The ratio does not show c, so c is configured.
  *
  * Gravity compensation (gravity_compensation.h) multiplies gravity's torque, and thus E, by a factor near 0: `part`.
- * `part` can be negative. The quadrature ratio then gives `part`, and I stays at its last estimate. The motor's voltage
- * cannot go below 0, so the compensation can remove at most the torque that the drive's own voltage gives. If this
- * torque is less than S g, the compensation is clipped, and the remaining torque is no sine.
+ * `part` can be negative. With compensation, the quadrature ratio gives `part`, and I stays at its last estimate. The
+ * motor's voltage cannot go below 0, so the compensation can remove at most the torque that the drive's own voltage
+ * gives. If this torque is less than S g, the compensation is clipped, and the remaining torque is not sinusoidal.
  *
- * A carriage of mass M moves along theta = 0. The arms have the mass m. Their effective inertia is I - D sin^2 theta,
+ * A carriage of mass M moves along theta = 0. The effective inertia of the arms, of mass m, is I - D sin^2 theta,
  * with D of at most S^2/(M + m). The inertia is least when the arms are across the rail, so the arms speed up twice a
  * turn. To the first order theta has the further term
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
  * The pulses do not show this term, so D and I are configured. The arms must turn in a level plane, because products of
- * gravity's ripple with this term are neglected. On a carriage three times as heavy as the arms, the force without this
- * term is 0.9 % too large, and its phase error is 0.11 degrees. */
+ * gravity's ripple with this term are neglected. If the term is neglected for a carriage three times as heavy as the
+ * arms, the force is 0.9 % too large, and its phase error is 0.11 degrees. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
@@ -72,10 +72,9 @@ typedef struct wh_turn_angle {
     wh_real twice_rad;   /* A, rad */
     wh_real second_sine; /* coefficients of sin 2u and cos 2u in theta */
     wh_real second_cosine;
-    /* Derivative of base_rad with respect to the quadrature ratio, including the change of psi. */
-    wh_real base_per_ratio;
-    wh_real base_per_lag; /* derivative of base_rad with respect to psi, at a fixed ratio */
-    /* Derivative of base_rad with respect to the ripple that the quadrature ratio mistakes for E's (result.c). */
+    wh_real base_per_ratio; /* derivative of base_rad with respect to the quadrature ratio */
+    wh_real base_per_lag;   /* derivative of base_rad with respect to psi, at a fixed ratio */
+    /* Derivative of base_rad with respect to a ripple a quarter turn after E's (result.c). */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
     wh_wave at_begin; /* sine and cosine of u at the start and at sensor 2's pulse */
@@ -85,8 +84,8 @@ typedef struct wh_turn_angle {
 
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
-/* Switches gravity compensation on or off in the model. A change restarts the estimate of `part`, and the inertia
- * stays. stall_Nm_per_V > 0 is the motor's torque at standstill per volt. */
+/* Switches gravity compensation on or off in the model. If this is a change, `part` is estimated again, but the inertia
+ * is kept. stall_Nm_per_V > 0 is the motor's torque at standstill per volt. */
 void wh_turn_angle_compensate(wh_turn_angle *angle, bool compensated, wh_real stall_Nm_per_V);
 
 /* Computes the angle's shape at a mean speed > 0, with the present inertia. The work is bounded: each call does two

@@ -5,7 +5,7 @@
 
 #include "core/rig/state_machine.h"
 
-/* Adds `words`, but writes `blank` instead of ' '. If `blank` is '_', stops before '|', which ends a list item. */
+/* Adds `words`, with `blank` instead of ' '. If `blank` is not ' ', '|' ends `words`. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
