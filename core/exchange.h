@@ -32,7 +32,7 @@ enum {
 
 typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, in `low`..`high` */
-    WH_SIGNAL_SAMPLE, /* counts of a converter: value / per_count, rounded, every period_ticks */
+    WH_SIGNAL_SAMPLE, /* a converter's counts every period_ticks: value / per_count, rounded */
     WH_SIGNAL_EDGE,   /* a pulse when the value (angle: modulo a turn) enters `low`..`high` */
     WH_SIGNAL_NOTE    /* a value that the controller reports; not a signal of the plant */
 } wh_signal_kind;
@@ -40,7 +40,7 @@ typedef enum wh_signal_kind {
 /* The channels of each kind are numbered from 0 in the order of the signals. */
 typedef struct wh_signal {
     wh_signal_kind kind;
-    const char *name; /* name of an input, an output, a coordinate or a rate of the plant */
+    const char *name; /* the plant's name of the input, output, coordinate or rate; or the note's */
     const char *unit; /* an SI unit */
     float low;
     float high;

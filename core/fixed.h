@@ -28,7 +28,7 @@ WH_C_BEGIN
 #define WH_FIXED_AVR 0
 #endif
 
-/* Generated functions: WH_FIXED_CALLED is never inlined. WH_FIXED_LIST is inlined, except on an AVR (small flash). */
+/* Attributes of generated functions: WH_FIXED_CALLED forbids inlining, WH_FIXED_LIST asks for it (not on an AVR). */
 #if defined(__GNUC__)
 #define WH_FIXED_CALLED __attribute__((noinline, unused))
 #else
@@ -104,7 +104,7 @@ WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
 #define wh_fixed_sine_table WH_NAME(wh_fixed_sine_table)
 #define wh_fixed_seed_table WH_NAME(wh_fixed_seed_table)
 
-/* wh_fixed_high_narrow() as a call, for processors on which its code is long. */
+/* Returns the same as wh_fixed_high_narrow(), but is not inlined. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b);
 
 WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
@@ -213,8 +213,8 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
 #endif
 
 /* Sine and cosine of a phase (2^32 per turn), times 2^30: the method of sine.h in integers. s and c are the sine and
- * cosine of the nearest angle in the table. r is the difference from this angle: sin = s + (c sin r + s (cos r - 1)).
- * y is r in units of 2^-31 pi/128. Small terms are 16-bit products. */
+ * cosine of the nearest angle in the table. r is the phase minus this angle: sine = s + (c sin r + s (cos r - 1)).
+ * y is r in units of 2^-31 pi/128. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
     const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
@@ -281,8 +281,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, by a table and two Newton steps: the first gives the upper 16 bits, the second only the bits
- * below them. The relative error is below 2^-28. */
+/* Returns 2^61/d for d >= 2^31, with a relative error below 2^-28. A table and a Newton step give the upper 16 bits. A
+ * second Newton step adds the lower bits. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

@@ -72,7 +72,7 @@ int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *satu
     const wh_real number = scaled(value, format->bits);
     const wh_real high = (wh_real)format->high; /* if wh_real is float, this rounds by up to 64 */
     const wh_real low = (wh_real)format->low;
-    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of high */
+    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of an end */
     if (!(number > low)) {
         *saturated += number >= low - (WH_R(1.0) + place * WH_ABS(low)) ? 0U : 1U;
         return format->low;
@@ -81,7 +81,7 @@ int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *satu
         *saturated += number <= high + (WH_R(1.0) + place * WH_ABS(high)) ? 0U : 1U;
         return format->high;
     }
-    /* a float of 2^23 or more is an integer: the sum would be rounded */
+    /* a float of 2^23 or more is an integer, which adding 0.5 could change */
     const wh_real half = WH_DOUBLE || WH_ABS(number) < WH_R(0x1p23) ? WH_R(0.5) : WH_R(0.0);
     const int32_t near = (int32_t)(number < WH_R(0.0) ? number - half : number + half);
     return wh_fixed_limit(near, format->low, format->high, saturated);

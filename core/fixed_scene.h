@@ -37,10 +37,8 @@ typedef struct wh_fixed_state {
     uint64_t steps;
     uint32_t saturated; /* number of values that were limited to their range since the start */
     int64_t *angle;     /* [scene->angles], 2^32 per turn, whole turns included */
-    /* [scene->reals], ordered as in wh_state. Second order: linear positions, then all rates. First order: the
-     * components other than angles. */
-    int32_t *real;
-    int32_t *input; /* [scene->inputs] */
+    int32_t *real;      /* [scene->reals], in the order of wh_state.real (state.h) */
+    int32_t *input;     /* [scene->inputs] */
 } wh_fixed_state;
 
 typedef struct wh_fixed_scene wh_fixed_scene;
@@ -85,9 +83,9 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 /* Returns a hash of steps, saturations, angles and reals, equal on all machines; 0 for a state that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* Conversions in floating point; no step calls them. wh_fixed_of() rounds to the nearest number, ties away from zero. A
- * value beyond the range gives the nearer end, and NaN the low end; both increment *saturated. Because the ends may be
- * rounded, a value up to one unit (float: plus the end's round-off) beyond an end is not counted. */
+/* Convert in floating point; no step calls these functions. wh_fixed_of() rounds to the nearest integer, ties away from
+ * zero. A value beyond low..high gives the nearer end, and NaN gives `low`. Both increment *saturated, except if the
+ * scaled value is beyond the end by at most 1 (float: plus the end's round-off). */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

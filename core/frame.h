@@ -38,7 +38,7 @@ typedef struct wh_frame_reader {
     unsigned room;
     unsigned length;  /* bytes of the frame in progress */
     bool too_long;    /* the frame in progress exceeds `room` and will be dropped */
-    uint32_t dropped; /* number of bad frames, wrapping; all bytes between two zeros count as one */
+    uint32_t dropped; /* number of bad frames, wrapping; bytes between two zeros are one frame */
 } wh_frame_reader;
 
 #define wh_frame_crc WH_NAME(wh_frame_crc)

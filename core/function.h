@@ -43,7 +43,7 @@ wh_real wh_tanh(wh_real x);
 wh_real wh_tan(wh_real rad);
 /* The angle of the point (x, y), from -pi to pi rad. */
 wh_real wh_atan2(wh_real y, wh_real x);
-/* base^exponent. If the true result is a wh_real, it is returned exactly. */
+/* base^exponent. If wh_real can represent the true result, it is returned exactly. */
 wh_real wh_pow(wh_real base, wh_real exponent);
 
 WH_C_END

@@ -1,5 +1,5 @@
-/* function_angle_float.c: the inverse circular functions in float. The polynomials are minimax in the argument's
- * square. Their first coefficient is fixed at one, so that the result for a small argument is the argument. */
+/* function_angle_float.c: the inverse circular functions in float. The series of asin x and atan x are
+ * x (1 + c x^2 + ...) with minimax coefficients. The 1 is fixed, so that a small x gives x. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
@@ -8,7 +8,7 @@
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* Returns base + angle, or base - angle if `minus` and base > 0, with the sign `sign`. base is radians in Q30. */
+/* Returns base + angle, or base - angle if `minus`. base is in radians, Q30. If base is 0, `minus` is ignored. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);
@@ -76,8 +76,8 @@ static uint32_t root_of(uint32_t size) {
     return ((root + ratio) << 15) + (behind >> 1);
 }
 
-/* Returns asin x for magnitudes up to 1/2. For larger ones, returns (pi/2 - asin x)/2, which is asin sqrt((1 - x)/2).
- * The relative error is at most 5e-10. A zero result has size 0. */
+/* x is the float with the bits `magnitude`, at most 1. Returns asin x if x <= 1/2, otherwise asin sqrt((1 - x)/2) =
+ * (pi/2 - asin x)/2. The relative error is at most 5e-10. A zero result has size 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
     static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
                                                191198894U, 322144200U, 715827596U}; /* Q32 */

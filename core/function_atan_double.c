@@ -132,7 +132,7 @@ static double finite_angle(double x, double y, bool behind) {
     if (rise > 64) {
         return half_pi.high;
     }
-    /* Scale extreme points to about 1, so that neither products nor their lower halves overflow or underflow. */
+    /* Scale extreme points to about 1, so that products of pairs neither overflow nor underflow. */
     const int larger = rise > 0 ? field_of(y) : field_of(x);
     const double scale = larger > 1523 ? 0x1p-600 : larger < 623 ? 0x1p600 : 1.0;
     const wh_pair angle = quarter((wh_pair){x * scale, 0.0}, (wh_pair){y * scale, 0.0});

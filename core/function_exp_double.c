@@ -46,7 +46,7 @@ static const wh_pair fraction[64] = {
     /* clang-format on */
 };
 
-/* Returns x 2^exponent, rounded once: if subnormal, by the sum x + large, whose ulp is 2^(-1074 - exponent). */
+/* If the result is subnormal, adding `large` rounds x to the bits that the result can have. */
 WH_INLINE double scaled(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;

@@ -23,32 +23,28 @@
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda, from the last evaluation of the accelerations */
-    /* wanted[i]: acceleration that the contact forces must add along contact member[i] of wh_contact_members() */
+    /* accelerations that the forces must add along the contacts, in the order of wh_contact_members() */
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real rough[WH_CONTACTS_MAX]; /* sum of |terms| of the acceleration along each contact */
+    wh_real rough[WH_CONTACTS_MAX]; /* round-off scale of the acceleration along each contact */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
     /* Bits: stops that were closed when the trial step began, and may now open. */
     unsigned inside;
-    unsigned hit_next; /* bits: touching stops that close because of an impact of this moment */
+    unsigned hit_next; /* bits: touching stops that an impact made close; they hit next */
     /* bits: frictions whose rate has just come to zero: they may stick or slide on */
     unsigned turned;
-    /* 0, except in three cases:
-     * - sliding friction: a backward rate up to `slack` (rad/s or m/s) is an error of location
-     * - crossing that turned back: passing zero is a second event only if the value goes more than `slack` beyond
-     * - hold with a condition that was zero within round-off: it stays active until the condition is below -slack */
+    /* A sliding friction, a crossing or an active hold has its next event only if its signal, negated if the mode is
+     * negative, falls below -slack. */
     wh_real slack[WH_CONTACTS_MAX];
-    /* Crossing that turned back: distance from zero beyond which the crossing has a sign again. */
+    /* Crossing that turned back: its sign becomes undecided if its value is not farther than this from zero. */
     wh_real due[WH_CONTACTS_MAX];
-    /* Crossing whose sign is undecided: its value when the step began or, if later, when the sign became undecided. */
+    /* Crossing whose sign is undecided: an earlier value. The sign is decided if |value - stood| exceeds |stood|. */
     wh_real stood[WH_CONTACTS_MAX];
-    wh_real came[WH_COORDS];       /* rates when the present moment began */
+    wh_real came[WH_COORDS];       /* rates before the impulses of the present events */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, indexed by wh_contact.first_set */
-    unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
-    unsigned mover; /* the crossing whose assignments set `moved` */
-    /* bits: crossings whose values are zero at this moment, within the error of the located time */
-    unsigned stands;
-    /* True if this moment's time was located, and no contact has been moved since. If a crossing with an event then has
-     * a nonzero value, the cause is the error of the located time. */
+    unsigned moved;  /* bits: contacts whose signals a crossing's assignments changed */
+    unsigned mover;  /* the crossing whose assignments set `moved` */
+    unsigned stands; /* bits: crossings at zero; wh_contact_turn_back() decides their signs */
+    /* The events' time was located, and no contact has been moved since: a crossing with an event counts as zero. */
     bool located;
     bool capped;   /* the pivoting reached its limit of rounds */
     int fault;     /* component that was assigned a value beyond its range, or -1 */
@@ -64,8 +60,8 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* `of`, for functions that may not be inlined. If gcc optimizes for size, it may not know the scene's constant in them,
- * and then warns of loops without a bound. So this macro names the constant, WH_CONTACTS_OF(), instead of `of`. */
+/* `of`, for functions that may not be inlined: there, `gcc -Os` does not know that `of` is the scene's constant, and
+ * warns of unbounded loops. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
@@ -136,8 +132,8 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* Computes the point after the time `span`. Positions move along the rates of `s`, and along accel[coordinates] if it
- * is not NULL. The rates stay those of `s`. */
+/* Computes the point after the time `span` from the rates of `s` and accel[coordinates] (NULL: no acceleration).
+ * at->rate stays the rate of `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {
@@ -223,10 +219,9 @@ WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_con
     return wh_delassus(of, w, k, k);
 }
 
-/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[] by elimination. Pivoting is
- * not needed, because the matrix is positive definite except for redundant contacts. Returns the redundant contacts, as
- * bits of their indices in member[]. Their lambda is 0 (NaN if their wanted value is not finite). If `at` is not NULL,
- * lambda[i] is also 0 for each i with at[i] != 0. */
+/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the contacts in member[count]. The matrix is positive
+ * semidefinite, so the elimination needs no pivoting. Redundant contacts get lambda = 0, and so do contacts i with
+ * at[i] != 0 if `at` is not NULL. Returns the redundant contacts, as bits of their indices in member[]. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,
