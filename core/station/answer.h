@@ -19,7 +19,7 @@ typedef union wh_value {
  *     @x           a count in eight hexadecimal digits
  *     @g           the word good or bad, for a count of 1 or 0
  *     @0 ... @9    a number with this many decimals
- *     @e           a number with seven digits, at most eight of them decimals, without trailing zeros */
+ *     @e           a number with at most seven digits and eight decimals, without trailing zeros */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
 /* A list begins with its separator, a character that no item contains: "|" "off" "|" "on". */
@@ -38,7 +38,7 @@ const char *wh_list_item(const char *list, unsigned number);
 
 /* === reasons for refusing a console line ===================================================== */
 
-/* The console's own reasons: X(name, number, words). 1 to 99 are the rig's (wh_refusal). Numbers never change. */
+/* The console's own reasons: X(name, number, words). A number never changes. wh_refusal uses the numbers 1 to 99. */
 #define WH_STATION_ERROR_ROWS(X) \
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
     X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \

@@ -197,8 +197,7 @@ static uint32_t hash(const wh_conf *conf) {
     return crc;
 }
 
-/* Computes the configuration from the settings. If these contradict each other, returns false, with an incomplete
- * configuration: the caller must restore the settings and call again. */
+/* Computes *conf->config from the settings. If they contradict each other, returns false, and *config is incomplete. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
@@ -306,7 +305,7 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         value[id] = value_of(config, (wh_conf_id)id);
     }
-    /* Members of sensors and cell become settings, the reverse of renew(). */
+    /* the inverse of renew() for the sensors and the cell */
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];
     value[WH_CONF_cell_reversed] = value[WH_CONF_cell_scale] < WH_R(0.0) ? WH_R(1.0) : WH_R(0.0);

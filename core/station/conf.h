@@ -1,7 +1,7 @@
 /* conf.h: the rig's settings as named numbers, listed in conf_rows.h.
  *
  * The program's own configuration gives the defaults. Permanent memory has only the settings that the user has set.
- * Another version of the program loads those of them that it knows, and uses its own defaults for all others. */
+ * A program of another version loads the settings that it knows. All others get that program's defaults. */
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 
@@ -21,7 +21,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* The part of the configuration that conf.c computes from this and other settings; WH_CONF_ALONE: none. */
+/* Groups of settings that together determine a part of the configuration. WH_CONF_ALONE: no group. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -46,7 +46,7 @@ typedef struct wh_conf {
     wh_rig_config *config;         /* the rig's configuration, updated with each change */
     wh_real value[WH_CONF_COUNT];
     wh_real standard[WH_CONF_COUNT]; /* defaults */
-    bool given[WH_CONF_COUNT];       /* true if the user has given a value, even the default */
+    bool given[WH_CONF_COUNT];       /* the user has set a value, which may equal the default */
     /* sequence number of the record that was loaded or saved last; 0: none */
     uint32_t sequence;
 } wh_conf;
@@ -71,7 +71,7 @@ wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 /* Resets all settings to their defaults. Permanent memory does not change until wh_conf_save(). */
 void wh_conf_default(wh_conf *conf);
 
-/* Saves to permanent memory; waits for the memory (hal/settings.h). */
+/* Saves the settings that the user has set. Returns when the memory has finished (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
 
 /* === the console's command `conf` ============================================================ */

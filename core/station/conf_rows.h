@@ -1,6 +1,6 @@
 /* conf_rows.h: the rig's settings, one row each: X(name, number, kind, unit, least, most, goes, member, words). The
- * user types the name, permanent memory has the number. Both never change, and a number is never reused. `least` and
- * `most` are in `unit`, `goes` is a wh_conf_goes, `member` is in wh_rig_config. */
+ * user types the name; permanent memory stores the number. Never change them, and never reuse a number. `least`
+ * and `most` are in `unit`, `goes` is a wh_conf_goes, `member` is in wh_rig_config. */
 #ifndef WH_STATION_CONF_ROWS_H
 #define WH_STATION_CONF_ROWS_H
 
@@ -18,7 +18,7 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number): a setting in this unit is `number` times its member of the configuration. */
+/* X(unit, word, number): a setting's value in this unit is `number` times the value of the row's `member`. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

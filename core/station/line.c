@@ -60,7 +60,7 @@ wh_line_event wh_line_take(wh_line *line, char character) {
 }
 
 void wh_line_split(wh_words *words, char *text) {
-    static const char none[] = ""; /* in RAM, unlike a literal: wh_line_number() reads only RAM */
+    static const char none[] = ""; /* must be in RAM; a literal "" may be in flash */
     bool within = false;
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         words->word[i] = none;
@@ -84,7 +84,7 @@ bool wh_line_number(const char *word, wh_real *number) {
     const bool negative = word[0] == '-';
     const char *at = word + (negative || word[0] == '+' ? 1 : 0);
     uint32_t digits = 0;
-    uint32_t scale = 0; /* 0 before the decimal point */
+    uint32_t scale = 0; /* 10^decimals; 0: no decimal point so far */
     unsigned count = 0;
     for (; *at != '\0'; at++) {
         if (*at == '.' && scale == 0) {

@@ -5,10 +5,10 @@
 #include "core/number/flash.h"
 
 typedef struct wh_ring {
-    uint32_t put; /* number of bytes put since the start, wrapping; put - taken bytes are stored */
-    uint32_t taken;
-    uint32_t size; /* a power of two */
-    char *bytes;   /* memory of the caller */
+    uint32_t put;   /* number of bytes put since the start; wraps */
+    uint32_t taken; /* number of bytes taken since the start; wraps */
+    uint32_t size;  /* a power of two */
+    char *bytes;    /* memory of the caller */
 } wh_ring;
 
 static inline uint32_t wh_ring_waiting(const wh_ring *ring) { return ring->put - ring->taken; }
@@ -16,7 +16,7 @@ static inline uint32_t wh_ring_room(const wh_ring *ring) {
     return ring->size - wh_ring_waiting(ring);
 }
 
-/* Puts all bytes and returns true. If they do not all fit, puts none and returns false: half a line is useless. */
+/* Puts all bytes and returns true. If they do not all fit, puts none and returns false. */
 bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count);
 
 /* Copies the oldest bytes, at most `room`, and returns their number. The bytes stay until wh_ring_drop(). */

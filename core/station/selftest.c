@@ -28,7 +28,7 @@ void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh
                             wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT;
     const wh_real off = WH_ABS(swung->place_rad[0]);
     const bool swings = swung->why == WH_SWING_FOUND;
-    wh_value value[] = {{.count = 1U}, /* 0 after the loop below if a part is bad */
+    wh_value value[] = {{.count = 1U}, /* whether all parts are good: computed below */
                         {.count = arithmetic},
                         {.count = !seen->inputs.clock_is_fallback},
                         {.count = !seen->inputs.watchdog_has_cut},

@@ -1,4 +1,4 @@
-/* selftest.h: the console's command `selftest`: checks of the rig at rest. */
+/* selftest.h: checks of the rig at rest, for the console's command `selftest`. */
 #ifndef WH_STATION_SELFTEST_H
 #define WH_STATION_SELFTEST_H
 

@@ -76,7 +76,7 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Returns the last step's time, or result_ticks before wh_station_see(): then a result does not age during a run. */
+/* Returns the time of the last step, or rig->result_ticks if wh_station_see() is not used. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -236,8 +236,7 @@ typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
-/* Uses a switch because a table of function pointers would look recursive to the stack analysis: some commands call
- * through pointers, and the analysis could not exclude that such a call reaches a command. */
+/* Uses a switch because the stack analysis would report a table of function pointers as a recursion. */
 static unsigned run(request *r) {
 #define COMMAND(name, most, follows, words) 1U + (most),
     static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
@@ -357,7 +356,7 @@ static void take_byte(wh_station *station, char byte) {
 
 void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
-        /* A zero byte is noise and does not come from a host. */
+        /* A zero byte is noise: it does not end the host's silence. */
         station->silent_steps = bytes[i] != 0 ? 0 : station->silent_steps;
         take_byte(station, bytes[i]);
     }

@@ -57,13 +57,13 @@
 #define WH_STATION_OUT_BYTES 1024U
 #endif
 
-/* Do not copy a started station: its rings point into it. Large members last: small offsets make shorter code. */
+/* Do not copy a started station: its rings point into it. Large members come last to make the code shorter. */
 typedef struct wh_station {
     bool talks;
-    bool escaped;        /* Escape was received: `stop` comes before the waiting bytes */
+    bool escaped;        /* Escape was received: the next order is `stop` */
     bool spoils;         /* a received byte was lost: the rest of its line is invalid */
     bool waits;          /* the console waits for the rig's answer to an order */
-    uint32_t answers;    /* rig->answers when the order was given */
+    uint32_t answers;    /* rig->answers before the order; another value means an answer */
     const char *program; /* the caller's string */
     const char *board;
     wh_conf *conf;               /* NULL: no settings */

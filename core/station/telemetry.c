@@ -1,4 +1,4 @@
-/* telemetry.c: frames, or lines for plotters, of the rig's data. */
+/* telemetry.c: the rig's data as frames, or as lines of text for plotters. */
 #include "telemetry.h"
 
 #include "answer.h"
@@ -107,7 +107,7 @@ static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
                : NONE_16;
 }
 
-/* True if telemetry's half of the ring has space. The other half is for the console's answers. */
+/* True if `count` more bytes leave half of the ring to the console's answers. */
 static bool fits(const wh_ring *out, unsigned count) {
     return wh_ring_room(out) >= out->size / 2U + count;
 }
@@ -164,7 +164,7 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
     (void)send_frame(s, WH_TEL_EVENT);
 }
 
-/* Sends the capture's next frame, or waits if the output ring has no space: none of these frames is dropped. */
+/* Sends the capture's next frame. If the output ring has no space, does nothing: the next step tries again. */
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
@@ -230,7 +230,6 @@ static void take_sample(sight *s, const wh_step_sample *sample) {
     const uint32_t period = cell->period_ticks * tel->every;
     const uint32_t due = tel->first_ticks + tel->samples * period;
     if (load.ticks - due + period / 8U > period / 4U) {
-        /* the sample is not one period after the last one, so a new frame begins */
         send_run(s);
     }
     if (tel->samples == 0) {
@@ -246,9 +245,9 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* this event is the first to be dropped if the output ring has little space */
+    if (seen->ended) {
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
-                   2U * LINE_BYTES_OF(EVENT_BYTES); /* space for later data of this step */
+                   2U * LINE_BYTES_OF(EVENT_BYTES); /* keep space for this step's other frames */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
         s->spare = 0;
     }
@@ -431,7 +430,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
     if (!wh_line_number(word, &wanted)) {
         return WH_STATION_TEL_RATE;
     }
-    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* fits, because it has at most nine digits */
+    const uint32_t per_s = (uint32_t)(int32_t)wanted; /* |wanted| < 1e9: no overflow */
     if ((wh_real)(int32_t)wanted != wanted || per_s == 0 || per_s > most || most % per_s != 0 ||
         is_too_fast(tel->format, per_s)) {
         return WH_STATION_TEL_RATE;

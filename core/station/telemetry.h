@@ -4,16 +4,16 @@
  *
  *     0x80 + channel 1 | sequence 2 | dropped 2 | ticks 4 | payload | CRC-16/CCITT 2
  *
- * A zero precedes and ends each coded frame; text has none. The second byte after a zero is 0x80 + channel in a frame,
- * but smaller in text, because text is ASCII. `sequence` counts the channel's frames, sent or dropped; `dropped` counts
- * those that did not fit into the output ring. Both wrap. Other gaps in `sequence` are losses on the line.
+ * A zero precedes and ends each coded frame. The second byte after a zero is 0x80 + channel if a frame follows, and
+ * smaller if text follows. `sequence` counts all frames of the channel, and `dropped` those that did not fit into the
+ * output ring. Both wrap. If `sequence` skips more numbers than `dropped` counts, the line lost frames.
  *
  * The console's `tel schema` describes the channels:
  *
- *     run    up to ten load samples, each within 1/8 of a period of its nominal time; speed, drive and state at the
- *            time of sending
- *     event  one event, at `ticks`: an edge of a slot pulse, another state, a trip
- *     ring   the recorded control steps around a trigger (below), ten in a frame; these frames wait if they do not fit
+ *     run    up to ten load samples, each within 1/8 of a period of its nominal time; speed, drive and state of the
+ *            step in which the frame is sent
+ *     event  one event, at `ticks`: an edge of a slot pulse, a new state or a trip
+ *     ring   up to ten of the recorded control steps around a trigger (below); such a frame is never dropped
  *
  * Telemetry is off at first. It uses at most half of the output ring. */
 #ifndef WH_STATION_TELEMETRY_H
@@ -126,15 +126,15 @@ typedef struct wh_tel {
     int16_t load[WH_TEL_SAMPLES];
     unsigned stage; /* the stage that was reported last */
     unsigned trip;
-    uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, as sent */
+    uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* buffer of one encoded frame */
     wh_capture capture;
 } wh_tel;
 
 /* Returns the right shift that makes the cell's counts fit into 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
 
-/* Call this after each control step. Does at most the work of one pulse, two samples and one frame of the capture.
- * Frames go into `out`, of which telemetry fills at most half. */
+/* Call this after each control step. A call handles at most three events, two samples and one frame of the capture.
+ * It puts frames into `out`, and fills at most half of it. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
                  const wh_step_inputs *seen, wh_ring *out);
 
