@@ -3,13 +3,13 @@
  * The half-widths of the intervals are for 95 %. A half-width is the root of the sum of squares of these parts:
  *
  * - scatter: Student's factor times the standard error of the mean over the turns.
- * - pulses (phase): the scatter shows only half of the effect of the pulses' jitter, because successive turns share a
- * pulse. The jitter follows from the second differences of the pulses' times.
- * - quadrature ratio (phase): the rotor's inertia, or the uncompensated part of gravity, is estimated from pulses with
- * the same jitter.
- * - angle: the angle within the turn has errors, because the damping has a tolerance and the third order is neglected.
- * Gravity compensation adds two errors: that of its angle, and that of a motor that cannot brake as much as commanded.
- * A carriage adds an error of the amplitude, because the moving mass has a tolerance.
+ * - pulses (phase): successive turns share a pulse. So the scatter shows only half of the variance that the pulses'
+ * jitter causes; this part is the other half. The second differences of the pulse times give the jitter.
+ * - quadrature ratio (phase): the same jitter gives an error of this ratio. From it follows the rotor's inertia, or the
+ * uncompensated part of gravity.
+ * - angle: the damping has a tolerance, and the model of the angle within a turn neglects the third order. With gravity
+ * compensation, the compensation's angle may be wrong, and the motor may brake less than commanded.
+ * - carriage (amplitude): the moving mass has a tolerance.
  * - drift (phase): the speed may change within a turn, but the angle is computed for a constant mean speed.
  * - floors: the configured calibration uncertainties; 0.5 % and 0.5 degrees before calibration. */
 #ifndef WH_RIG_RESULT_H
@@ -52,11 +52,12 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* factor on the cell's force: 1, or M/(M + m) on a carriage (rig.h) */
+    wh_real mount_factor; /* fraction of a fixed mount's force: M/(M + m) on a carriage (rig.h) */
     /* Calibration uncertainties at 95 %: a fraction of the force, and an angle. 0: uncalibrated. */
     wh_real amplitude_floor;
     wh_real phase_floor_rad;
-    /* Limits, as fractions of the expected force or in rad: a result beyond a _wrong one is refused, else doubtful. */
+    /* Limits: fractions of the expected force, or rad. Beyond a limit ending in `wrong`, the result is refused;
+     * beyond another, it is doubtful. */
     wh_real amplitude_off;
     wh_real amplitude_wrong;
     wh_real phase_off_rad;
@@ -68,17 +69,17 @@ typedef struct wh_result_config {
 
 /* The turns merged so far. All zeros: no turns. */
 typedef struct wh_merge {
-    bool follows; /* the last turn was used: the next turn's duration is compared with its own */
+    bool follows; /* the last turn was used */
     bool second_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
-    uint32_t second_turns; /* turns in the mean at_pulse_N[1] */
+    uint32_t second_turns; /* number of turns that gave at_pulse_N[1] */
     wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
     uint32_t jitters;      /* number of second differences in jitter_s2 */
-    uint32_t first_ticks;  /* durations of the first and the last used turn */
-    uint32_t last_ticks;
+    uint32_t first_ticks;  /* duration of the first used turn */
+    uint32_t last_ticks;   /* duration of the last used turn */
     uint32_t second_turn_ticks;
     uint32_t begin_ticks;
     uint32_t second_ticks;
@@ -87,9 +88,8 @@ typedef struct wh_merge {
     wh_repeats repeats;
     wh_real in_phase_N; /* components of the first order, means over the turns */
     wh_real quadrature_N;
-    wh_real second_N[2]; /* components of the second order: cosine, sine */
-    /* sums of products of deviations: in phase squared, in phase times quadrature, quadrature squared */
-    wh_real scatter_N2[3];
+    wh_real second_N[2];   /* components of the second order: cosine, sine */
+    wh_real scatter_N2[3]; /* sums of x^2, x y, y^2; deviations: x in phase, y in quadrature */
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;
@@ -115,13 +115,13 @@ typedef struct wh_measured {
     wh_real phase_half_rad;
     wh_real expected_N; /* amplitude expected from masses, speed and mount */
     wh_real residual_N; /* rms of the load without its orders 0 to 2 */
-    /* amplitude of the residual's harmonics 3 to 6 together, or 1.27 times that of the third if this is larger */
+    /* the larger of two amplitudes of the residual: harmonics 3 to 6 together, and 1.27 times the third harmonic */
     wh_real repeats_N;
     wh_real repeats_limit_N; /* largest repeats_N of a healthy rig with this noise */
     wh_real jitter_s;        /* standard deviation of the pulse times */
     wh_real inertia_kgm2;
-    wh_real ripple_off_rad; /* error of the angle model's ripple, from the load's second order */
-    wh_real uncompensated_part; /* fraction of gravity's torque, >= 0; 0 without compensation */
+    wh_real ripple_off_rad; /* error of the modelled speed ripple, from the load's second order */
+    wh_real uncompensated_part; /* remaining fraction of gravity's torque if compensated, else 0 */
     wh_real at_pulse_N[2];      /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 

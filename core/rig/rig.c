@@ -1,4 +1,4 @@
-/* rig.c: the eccentric-mass rig's controller: orders, guard and run, in this order, each control step. */
+/* rig.c: the eccentric-mass rig's controller. Each control step runs the guard, takes the orders and steps the run. */
 #include "rig.h"
 
 #include <stddef.h>
@@ -46,8 +46,7 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-/* True if the motor brakes: the enable stays on at 0 V until the pulses show that the rotor does not slow, or the stop
- * input is pressed. */
+/* True if the motor brakes: its enable is on, at 0 V. */
 static bool brakes(const wh_rig *rig) {
     return rig->brakes && rig->run.phase == WH_PHASE_OFF && !rig->guard.off.released;
 }
@@ -111,13 +110,11 @@ static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsi
     return alternate;
 }
 
-/* Duration of a turn at 3,200 rpm. Even the fastest motor of the settings (2,000 rpm) is slower at the highest supply
- * voltage. */
+/* Duration of a turn at 3,200 rpm. Shorter turns are noise, because no motor of the settings turns that fast. */
 #define STORM_TICKS 18750U
 
-/* True if the sensors' pulses come in the wrong order. From sensor 1 to sensor 2, the rotor takes a quarter turn
- * forwards, or three quarters backwards. The order is wrong if each time from sensor 1 to sensor 2 exceeds each time
- * from sensor 2 to sensor 1. One comparison is not enough, because it could fail while the rotor speeds up. */
+/* True if the rotor takes longer from sensor 1 to sensor 2 than from there on to sensor 1. In the right order, these
+ * are a quarter turn and three quarters. Two comparisons are needed, because the rotor may speed up. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -130,11 +127,10 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* The bound on the speed falls when WH_RUN_START_S has passed since the loop closed. The rig trips only after two
- * pulses above the new bound, so the start counts as longer by the time of two pulses. */
+/* The speed bound falls WH_RUN_START_S after the loop closes. The trip may be this much later: it needs two pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
-/* Returns the guard's trip, or its likely cause if known. To be called in the step that trips. */
+/* Returns the likely cause of the guard's trip, or that trip itself if the cause is unknown. */
 static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_trip trip = rig->guard.trip;
     const bool of_pulses = trip == WH_TRIP_OVERSPEED || trip == WH_TRIP_PULSES ||
@@ -194,8 +190,7 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                                                                           : WH_REFUSED_VOLTAGE;
 }
 
-/* A trip can be cleared if no pulses come, the rotor rests and the trip's cause is gone. After a trip for unreliable
- * pulses, the rotor counts as at rest only after rest_max_s. */
+/* A trip can be cleared if the rotor is at rest and the trip's cause is gone. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
     if (!rig->at_rest || !rig->guard.quiet) {
@@ -377,7 +372,7 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     rig->orders = 0;
 }
 
-/* At a low speed this angle limits the time without a pulse: two lost pulses take nearly two turns. */
+/* The rotor may turn at least this angle without a pulse: two lost pulses leave a gap of up to 7 quarter turns. */
 #define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
@@ -409,7 +404,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (!drives) {
         rest(config, rig, inputs->now_ticks);
     }
-    /* With the motor off, a rotor of known speed cannot become faster. */
+    /* If the speed was known when the motor went off, the rotor can only become slower. */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses,
                    !slows        ? WH_TRIP_OVERSPEED
@@ -432,7 +427,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* latched: an old sample looks recent when the timer wraps */
+        guard->load_good = false; /* an old sample may look recent after the timer wraps */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
@@ -440,7 +435,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 }
 
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    /* A pulse that decides about a suspect takes as long as two pulses: the observer waits for the next step. */
+    /* To decide about a suspect takes as long as two pulses, so the observer waits for the next step. */
     if (rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks) {
         return;
     }
@@ -528,9 +523,7 @@ static void step_run(const wh_rig_config *config, wh_rig *rig, const wh_rig_inpu
     }
 }
 
-/* Returns the number of half nodes for which this step has time. A late step gets the load samples and observer steps
- * of several steps, and the next step gets none. If the observer runs and the last pulse is not yet confirmed, there
- * is less time, because this step may confirm it. */
+/* Returns the number of half nodes for which this step has time. Load samples leave less time. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -541,7 +534,7 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->compensated && rig->pulses.waits ? 1U : 0U);
 }
 
-/* Number of confirmed pulses that may wait. If more wait, even a step that has processed a pulse takes one of them. */
+/* A busy step takes a confirmed pulse only if more than this number are waiting. */
 #define CONFIRMED_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -597,7 +590,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     step_run(config, rig, inputs);
-    /* before measure(), because its work is useless after a trip */
+    /* step_run() may have tripped */
     follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {
         rig->busy = true;
@@ -605,8 +598,8 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     measure(config, rig, inputs->now_ticks);
     if (!wh_run_drives(&rig->run)) {
         if (inputs->now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
-            rig->result_ticks += WH_RIG_TICKS_PER_S; /* ages in seconds, because the timer wraps */
-            rig->result_s++;
+            rig->result_ticks += WH_RIG_TICKS_PER_S;
+            rig->result_s++; /* seconds, because the timer wraps */
         }
         if (WH_RIG_SWINGS) { /* follows a free swing, or evaluates it if the rotor is at rest */
             const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
@@ -650,7 +643,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* If the rotor passes the top slowly, speed.h takes the long interval for a gap and keeps an old, higher speed. */
+    /* speed.h mistakes a slow pass over the top for a gap. It then keeps an old speed, which is too high. */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;

@@ -39,7 +39,7 @@ bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned l
 
 /* === a control step's inputs ================================================================= */
 
-/* Source of a stop request. EITHER: the drive stage's fault and the stop contacts share a line. */
+/* Source of a stop request. EITHER: one line carries both the drive stage's fault and the stop contacts. */
 typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
 
 typedef struct wh_rig_inputs {
@@ -60,14 +60,14 @@ typedef struct wh_rig_order {
 
 #define WH_RIG_ORDERS_MOST 4U /* maximum number of orders between two control steps */
 
-/* When to compensate gravity. Compensation removes the ripple of the speed, and gravity's part of the load's peaks. */
+/* When to compensate gravity. Compensation removes the speed ripple that gravity causes. */
 typedef enum wh_compensation_when {
     WH_COMPENSATION_NEVER,
-    WH_COMPENSATION_SLOW, /* only for set-points that are too slow without compensation */
+    WH_COMPENSATION_SLOW, /* only for set-points below guard.target_min_radps */
     WH_COMPENSATION_ALWAYS
 } wh_compensation_when;
 
-/* A small chip's build may set 0: observer.scene is then NULL, and gravity never compensated. */
+/* 0 in builds for small chips: gravity is never compensated, and observer.scene is NULL. */
 #ifndef WH_RIG_FEEDS
 #define WH_RIG_FEEDS 1
 #endif
@@ -83,10 +83,10 @@ typedef struct wh_rig_config {
     wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for the rotor to come to rest after a trip */
-    wh_real rest_max_s;    /* longest such wait after a run that ended without a trip */
+    wh_real rest_max_s;    /* longest wait for rest after a run without a trip */
     /* If true, the motor brakes at a run's end and after `stop`. After a trip or the stop input it always coasts. */
     bool stop_brakes;
-    /* If true, a completed run coasts even if stop_brakes: the free swing gives the sensors' positions. */
+    /* If true, the motor coasts after a completed run, even if stop_brakes. The free swing then locates the sensors. */
     bool swings;
     bool host_loss_stops; /* a run ends if the host that gives the orders is lost */
     uint32_t host_max_s;  /* the host is lost after this time without an order; 0: never */
@@ -107,12 +107,11 @@ typedef struct wh_rig {
     /* The observer follows the rotor in this run, and gravity is compensated as soon as the observer is valid. */
     bool compensated;
     bool busy;    /* this step has processed a pulse: other work waits */
-    bool decides; /* this step has a pulse that decides about a suspect (pulses.h) */
+    bool decides; /* a pulse of this step decides whether a suspect (pulses.h) was a true pulse */
     /* Samples since the last step. With more than one, the step has less time for other work. */
     uint8_t loads;
-    bool rested; /* after a trip: at_rest is true, or tripped_max_s is over */
-    /* True after a trip if no pulses come. If unreliable pulses caused the trip, rest_max_s must also be over. */
-    bool at_rest;
+    bool rested;     /* after a trip: the wait for rest is over */
+    bool at_rest;    /* after a trip: the rotor has come to rest */
     bool has_result; /* the last run has a result */
     wh_rig_end ended;
     wh_rig_event asked; /* the last processed order */
@@ -163,7 +162,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Sensor 1 is on the loading-train axis, sensor 2 a quarter turn later. Each pulse comes lead_rad before the sensor. */
+/* Set the sensors' angles: 1 on the loading-train axis, 2 a quarter turn later. Pulses come lead_rad earlier. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
 /* The torque line of a brushed motor; all numbers are > 0. */
@@ -177,7 +176,7 @@ typedef struct wh_rig_motor {
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
 
 /* Scale the configuration to this motor: gains, spin-up, supply, bounds of the guard, damping, gravity compensation.
- * Call this only once, because the configuration must still be that for the motor in the observer's scene. */
+ * Call this only once: before the call, the configuration must be for the motor of observer.scene. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
 /* Set impossible_radps to the motor's no-load speed at guard.supply_max_V. Call this after that voltage changes. */

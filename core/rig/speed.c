@@ -21,7 +21,7 @@ static void begin(wh_speed *speed, unsigned sensor) {
     speed->seen[1] = false;
 }
 
-/* Advances to the next position of this sensor: 1, 3 or 4 quarters on. Returns false if that would be too fast. */
+/* Advances `quarter` to this sensor's next position. Returns false if the pulse needs an impossible speed. */
 static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;
@@ -30,13 +30,12 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (interval == 0 || interval_radps > speed->impossible_radps) {
         return false;
     }
-    /* If a pulse is more than a quarter turn late, at least two pulses were lost. The pulse is then late by four
-     * quarters, or by two if the sensors are in the wrong order. */
+    /* If a pulse is more than a quarter turn late, at least two pulses were lost. */
     const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
-        /* The speed stays known after one gap. A second gap in succession shows that it was wrong. */
+        /* Two successive gaps show that turn_radps is wrong. */
         speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         begin(speed, sensor);

@@ -47,11 +47,10 @@ const wh_rig_config wh_rig_standard = {
               .slow_silence_max_s = WH_R(2.0),
               .load_silence_max_s = WH_R(0.02), /* ten samples */
               .load_still_kgm = WH_R(0.1) * WH_RIG_UNBALANCE_KGM,
-              .stuck_pulses = 3, /* three successive pulses span a whole turn */
+              .stuck_pulses = 3, /* three pulses span a whole turn, in which the load must change */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),
-              /* half of the loss 2 pi c/I: c is the damping, I six times the configured inertia */
               .braked_radps =
                   WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
               .hand_radps = RPM(60.0)},
@@ -140,9 +139,8 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     observer->per_radps =
         WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
     observer->no_load_radps = motor->no_load_radps;
-    /* The motor stage gives no negative voltage, so it clips a compensation that exceeds the drive's own voltage. With
-     * this motor that may happen at higher speeds. */
     config->compensation.most *= before.stall_Nm / motor->stall_Nm;
+    /* The motor stage gives no negative voltage: below `slowest`, it might clip the compensation. */
     const wh_real slowest = config->guard.target_min_compensated_radps * before.stall_Nm /
                             motor->stall_Nm * motor->no_load_radps / before.no_load_radps;
     if (slowest > config->guard.target_min_compensated_radps) {
@@ -156,7 +154,7 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
 
 /* === on a carriage =========================================================================== */
 
-/* Tolerance of the rotor's inertia, which cannot be estimated without gravity. */
+/* Relative error of the configured inertia, which a measurement without gravity cannot correct. */
 #define YIELDS_TOLERANCE WH_R(0.1)
 
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {

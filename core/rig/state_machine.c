@@ -8,7 +8,6 @@
 #define NO(state, why) \
     { WH_RIG_##state, WH_REFUSED_##why }
 
-/* The columns are WH_RIG_STATE_ROWS. An event that leads to the present state does not restart the state's time. */
 /* clang-format off */
 static const wh_rig_transition rules[WH_EVENTS][WH_RIG_STATES] = {
     /*                       idle                   armed                   running               stopping                tripped */
