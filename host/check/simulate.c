@@ -90,7 +90,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* If an output is not finite in a row that is recorded or drawn, or at the end, the run fails at its end. */
+/* Notes an output that is not finite. The run then fails at its end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -126,7 +126,7 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
-/* Marks the step's events. Skips releases of stops, and events too close to the last mark to see both in a picture. */
+/* Marks the step's events, except releases of stops, and events that coincide in a picture with the last mark. */
 static void mark_events(simulation *sim, uint64_t step) {
     engine_event list[WH_EVENT_LOG];
     plot_run *to = &sim->course;
@@ -258,7 +258,7 @@ static void say_failure(simulation *sim, wh_status status) {
 static simulation_result conclude(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
-    if (status != WH_OK) { /* the failure of a step is reported instead of undefined energies */
+    if (status != WH_OK) { /* report only the failed step, not undefined energies */
         diags_free(sim->undefined);
         sim->undefined = diags_new();
     } else if (sim->output < 0) {
@@ -273,8 +273,7 @@ static simulation_result conclude(simulation *sim, wh_status status, bool ended)
         say_failure(sim, status);
     }
     const books *b = sim->checks->books;
-    if (status == WH_OK && b != NULL && b->undefined &&
-        sim->output < 0) { /* no remedy is sought for an undefined output */
+    if (status == WH_OK && b != NULL && b->undefined && sim->output < 0) {
         findings_say_failed(stderr, sim->checks);
     }
     if (status != WH_OK || undefined) {
@@ -323,7 +322,7 @@ static bool close_records(simulation *sim, bool keep) {
     if (keep && sim->csv != NULL && sim->csv != stdout && atomic_file_is_regular(sim->csv)) {
         char *facts = about_facts(sim->image, s->kind, sim->run);
         char *tables = about_tables(sim->image);
-        good = plot_run_about(s->csv, &sim->course, facts, tables); /* a file named after csv */
+        good = plot_run_about(s->csv, &sim->course, facts, tables);
         free(facts);
         free(tables);
     }
@@ -401,7 +400,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     summary_print(out, sim->image, s->kind, sim->run, sim->checks->books, &sim->checks->balance);
 }
 
-/* Sets *h, the begin of a picture's shade, and to->until_s. The caller frees *h. */
+/* Sets *h (the caller frees it), the picture's trusted_s, and to->until_s. */
 static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     const run_checks *v = sim->checks;
     *h = horizon_of(v->doubling, HORIZON_TOLERANCE);

@@ -16,7 +16,7 @@ typedef struct simulation_settings {
     const char *plot;    /* a picture (host/io/gnuplot.h), or NULL */
     plot_choice choice;  /* the curves of the picture */
     plot_run *taken;     /* takes the data of a picture instead of drawing one; or NULL */
-    const char *chosen;  /* reason for the step, in words, or NULL */
+    const char *chosen;  /* words that say why this step was chosen, or NULL */
     const char *changes; /* changes of the scene, in words, or NULL */
     bool no_scene;       /* a bare mechanism */
     bool quiet;

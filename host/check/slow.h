@@ -11,8 +11,8 @@
 #include "host/engine/engine.h"
 
 #define SLOW_SHARE 1e-3
-#define SLOW_LEAST_RAD 3e-9  /* two units: an angle that hardly moves may have this round-off */
-#define SLOW_LEAST_UNITS 4.0 /* four in fixed point, which also rounds the accelerations to units */
+#define SLOW_LEAST_RAD 3e-9  /* in float, smaller round-off is ignored: two units of 2^-32 turn */
+#define SLOW_LEAST_UNITS 4.0 /* in fixed point, smaller round-off is ignored: four units */
 
 /* Does component i move so slowly that its round-off shows? Angles come first. */
 bool slow_component(const engine_kind *kind, const void *run, int i);

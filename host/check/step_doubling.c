@@ -64,8 +64,7 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* The variant whose lists differ most from the scene's near the start; NULL: no variants. Evaluates the lists at the
- * start, and with 1 SI unit added to each component in turn, because a zero component may hide its factors' errors. */
+/* Returns the variant whose lists differ most from the scene's near the start, or NULL if there are no variants. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -76,6 +75,7 @@ static const image *constant_sensitivity_furthest(const image *im) {
     double *x = alloc(n, sizeof *x);
     compare_starts(im, share);
     for (int at = -1; at < n; at++) {
+        /* the added 1 SI unit shows errors that a start value of zero would hide */
         for (int i = 0; i < n; i++) {
             x[i] = image_start(im, i) + (i == at ? 1.0 : 0.0);
         }
@@ -238,7 +238,7 @@ static void rounded_look(rounded *r, const void *run) {
     const double *result = state_list_at(&r->list, angle_rad, real);
     evaluator_rounding(r->list.evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
-        const component c = image_component(im, i); /* in a first-order system */
+        const component c = image_component(im, i);
         const bool
             is_solved_for = /* a highest derivative, which comes from solving the equations */
             im->form == WH_SECOND_ORDER || c.primes + 1 == im->unknown[c.unknown].order;
@@ -265,8 +265,7 @@ static int result_of(const image *im, int unknown, int primes) {
     return image_find_component(im, unknown, primes - 1);
 }
 
-/* Bounds the round-off of each column by that of its derivative, times the run's duration. The highest derivatives come
- * first, because the round-off of a derivative includes that of the next higher one. */
+/* Bounds a column's round-off: the round-off of its derivative (a later column), multiplied by the run's duration. */
 static void take_rounding(step_doubling *t) {
     const rounded *r = t->rounded;
     for (int k = t->columns - 1; k > 0; k--) {
@@ -281,7 +280,7 @@ static void take_rounding(step_doubling *t) {
         }
         const int result = result_of(r->list.image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* A bound is infinite at a pole, or at a root of nearly zero. It is ignored unless most samples have it. */
+            /* Infinite bounds, as at a pole, count only if most samples have one. */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
@@ -314,8 +313,7 @@ static void take_places(step_doubling *t) {
 
 /* --- side by side ------------------------------------------------------------------------------------*/
 
-/* Compares the two runs. With contacts, a difference counts only if two comparisons in succession find it, because the
- * runs may have an event in different steps. A run of one step has only one comparison after its start: it suffices. */
+/* With contacts, ignores a difference found by one comparison only: the runs may differ in an event's step. */
 static void look(step_doubling *t, double time_s) {
     const image *im = t->shape->image;
     const bool events = im->contacts > 0 && im->steps > 1U;
@@ -357,7 +355,7 @@ static bool step_finer(step_doubling *t) {
     return good;
 }
 
-/* Is an angle beyond the range of double's sine? The angles of a float run wrap around. */
+/* Did the finer run fail because an angle left the sine's range? The angles of a float run wrap around instead. */
 static bool is_unwrapped(const step_doubling *t) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -369,7 +367,7 @@ static bool is_unwrapped(const step_doubling *t) {
     return found;
 }
 
-/* Has either run had a step with too many events? Such steps let stops rest too early, perhaps in both runs. */
+/* Has either run had a step with too many events? In such a step, stops may rest too early. */
 static bool has_overrun(const step_doubling *t) {
     uint64_t ours = 0;
     uint64_t finers = 0;

@@ -1,18 +1,18 @@
 /* step_doubling.h: the difference between a run and a finer run of the same scene, over time.
  *
- * The finer run has half the step, in double with compensated sums, and computes functions that the run looks up in
- * tables. It has the run's method if that is of order 4 or more, else RK4. So the difference contains all errors of the
- * run: step, round-off, tables, formats; and the smaller error of the finer run. With --matrix exact, steps have no
- * error: the finer run has the same step, and the difference is round-off. */
+ * The finer run has half the step. It uses double with compensated sums, and computes functions that the run looks up
+ * in tables. Its method is the run's method if that has at least order 4, else RK4. So the difference contains all
+ * errors of the run (those of step, round-off, tables and number format), and the smaller error of the finer run. With
+ * --matrix exact, a step has no error; both runs have the same step, and the difference is round-off. */
 #ifndef CHECK_STEP_DOUBLING_H
 #define CHECK_STEP_DOUBLING_H
 
 #include "host/io/records.h"
 #include "pole.h"
 
-enum { STEP_DOUBLING_LOOKS = 20000 }; /* most comparisons of the two runs, at equal intervals */
+enum { STEP_DOUBLING_LOOKS = 20000 }; /* limit on the number of comparisons */
 
-/* The comparison that followed `time_s` was the first with a difference of `size`. */
+/* The difference first reached `size` at the comparison that followed `time_s`. */
 typedef struct passage {
     double time_s;
     double size;
@@ -27,7 +27,7 @@ typedef struct passages {
 
 #define PASSAGE_GRAIN 1e-3 /* relative resolution of the recorded sizes */
 
-/* Enters the difference `size`. before_s: time of the last comparison before it. NaN exceeds every level. */
+/* Enters the difference `size`. `before_s`: time of the previous comparison. A NaN counts as infinite. */
 void passages_enter(passages *p, double before_s, double size);
 void passages_free(passages *p);
 
@@ -36,13 +36,13 @@ double passages_until_s(const passages *p, double level);
 
 typedef struct step_doubling_column {
     double start;    /* first value of the finer run, in the column's unit */
-    double low;      /* least value of the finer run, or of the run if `otherwise`, before cut_s */
+    double low;      /* least value up to cut_s: of the finer run; if `otherwise`, of the run */
     double high;     /* largest such value */
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
-    bool has_rate;   /* the state has the column's rate, so that the column's origin is arbitrary */
+    bool has_rate;   /* the column's rate is a component of the state */
     bool written;    /* the scene gives the start value as a number, so it has no round-off */
-    int place;       /* index of its coordinate's column, if it is a rate; else its own index */
+    int place;       /* index of the column with the coordinate itself, not with its rate */
     double one;      /* number of the column's units in one SI unit */
     double alike;    /* the largest range of all positions with the column's unit */
     passages off;
@@ -92,7 +92,7 @@ typedef struct step_doubling {
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* Starts the finer run of a run that the caller steps. `jumped`: pole search, or NULL. All must outlive the result. */
+/* Starts the finer run; the caller steps `run`. `jumped` may be NULL. The arguments must outlive the result. */
 step_doubling *step_doubling_open(const image *im, const engine_kind *kind, void *run,
                                   const pole_crossing *jumped);
 /* Call it at the start of the run and after each step. */
@@ -101,8 +101,9 @@ void step_doubling_enter(step_doubling *t);
 void step_doubling_end(step_doubling *t, wh_status status);
 void step_doubling_free(step_doubling *t); /* NULL is fine */
 
-/* Estimated operations of both runs. For the finer run alone, the search for events is left out. */
+/* Estimated operations of both runs, including the run's search for events. */
 double step_doubling_operations(const image *im);
+/* Estimated operations of the finer run, without its search for events. */
 double step_doubling_finer_operations(const image *im);
 
 #endif

@@ -120,14 +120,14 @@ static bool stays(const opening *o, const records *r, int i, double most) {
            strayed(o, i) * c->unit->scale / c->unit->divisor < STAYS * most;
 }
 
-/* Is column i a coordinate that moves, or (`is_output`) an output that is a length and moves? */
+/* Does column i move? It must be a coordinate or, if `is_output`, an output that is a length. */
 static bool moves(const opening *o, const records *r, int i, bool is_output) {
     const record_column *c = &r->column[i];
     return c->primes == 0 && o->high[i] > o->low[i] &&
            (is_output ? c->unknown < 0 && strcmp(c->unit->si, "m") == 0 : c->unknown >= 0);
 }
 
-/* The marked column with the alphabetically first name, or -1: the order in the file shall not matter. */
+/* Returns the marked column whose name is the first in the alphabet, or -1. */
 static int next_by_name(const records *r, const bool *marked) {
     int next = -1;
     for (int i = 1; i < r->columns; i++) {
@@ -146,7 +146,7 @@ bool opening_moves(const opening *o, const records *r) {
     return some;
 }
 
-/* "x_cm stays at 0.6 m within 1.1e-09 m, y_cm at 0 m within 0.0e+00 m." False: no output stays. */
+/* "x_cm stays at 0.6 m within 1.1e-09 m, y_cm at 0 m within 0.0e+00 m." Returns false if no output stays. */
 static bool print_staying(FILE *out, const opening *o, const records *r) {
     double most = 0.0; /* the largest range of a length */
     bool *marked = alloc(r->columns, sizeof *marked);
@@ -172,7 +172,7 @@ static bool print_staying(FILE *out, const opening *o, const records *r) {
     return named > 0;
 }
 
-/* Prints a motion from start to end, or between the extremes if start and end are less than half the range apart. */
+/* Prints a motion's start and end or, if these are close together, its extremes. */
 static void print_way(FILE *out, const opening *o, const records *r, int i, bool is_first) {
     const record_column *c = &r->column[i];
     const bool swings = fabs(r->row[i] - o->first[i]) < (o->high[i] - o->low[i]) / 2.0;
@@ -203,8 +203,7 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
 
-/* "The momentum of x stays 0 kg*m/s within 5.9e-11. ", for the first length with a conserved momentum. The momentum of
- * an angle, such as a clock's, says nothing about where the device moves. */
+/* Prints "The momentum of x stays 0 kg*m/s within 5.9e-11. " for the first length with a conserved momentum. */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {

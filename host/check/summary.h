@@ -9,13 +9,13 @@
 #include "host/engine/engine.h"
 #include "host/io/records.h"
 
-/* === a step as --step takes it ================================================================ */
+/* === steps ==================================================================================== */
 
 enum { STEP_WORD = 40 };
 
 /* Rounds most_s down to 1, 2 or 5 times a power of ten. Returns at most 5000 s, and 0 below 1e-12 s. */
 double step_nice_s(double most_s);
-/* "200us", with enough digits to be read back exactly; returns `text`. */
+/* Writes the step for --step, as "200us", with a relative error below 1e-14. Returns `text`. */
 const char *step_text(double step_s, char text[STEP_WORD]);
 
 /* === about ==================================================================================== */
@@ -23,11 +23,11 @@ const char *step_text(double step_s, char text[STEP_WORD]);
 
 /* Version, scene, step, method, state hash. The caller frees the result. */
 char *about_facts(const image *im, const engine_kind *kind, const void *run);
-/* Parameters and inputs, SI. The caller frees the result. */
+/* Parameters and inputs in SI units. The caller frees the result. */
 char *about_tables(const image *im);
 
 /* === the opening sentence ===================================================================== */
-/* A summary's first sentences: the constant outputs; if none, a conserved momentum and the motions' ranges. */
+/* A summary begins with the constant outputs. If there are none, it begins with the motions. */
 
 typedef struct opening {
     uint64_t each; /* steps between sampled rows */
@@ -39,7 +39,7 @@ typedef struct opening {
 opening opening_begin(const records *r, uint64_t steps);
 void opening_end(opening *o);
 void opening_enter(opening *o, const records *r);
-/* Has a coordinate moved? For a run that has ended. */
+/* Did a coordinate move in the sampled rows? */
 bool opening_moves(const opening *o, const records *r);
 /* Prints the sentence for a run that ends with the records' current row. `b` may be NULL. */
 void opening_print(FILE *out, const opening *o, const records *r, const books *b);

@@ -260,7 +260,7 @@ static int derive_source(source_model *from, void *options) {
         }
         return code;
     }
-    code = source_pick(from, true, &of, &in); /* generated code has one scene's values */
+    code = source_pick(from, true, &of, &in);
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(o->header)) {
         code = EXIT_BAD_INPUT;
     }
