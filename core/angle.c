@@ -63,8 +63,8 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. As an unsigned number, a negative
- * angle is 2^64 too large, so its product is too large by factor.part, which is subtracted. */
+/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. If angle < 0, `size` is 2^64 too
+ * large, and `too_much` corrects the product. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

@@ -24,8 +24,8 @@ wh_angle wh_angle_from_rad(wh_real rad);
 /* Converts any stored angle to unwrapped radians. Float: the error is at most 0.504 units in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle);
 
-/* Returns the phase of factor * angle. The factor may be a fraction such as 0.37: unlike a phase, an angle counts whole
- * turns. Float: the error is at most 0.75 phase units (1.1e-9 rad). Double: the rounded product. */
+/* Returns the phase of factor * angle. The factor may be a fraction such as 0.37, because `angle` includes whole turns.
+ * Float: the error is at most 0.75 phase units (1.1e-9 rad). Double: the rounded product. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
 
 WH_C_END

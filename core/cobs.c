@@ -66,7 +66,7 @@ unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
     return count + 2U;
 }
 
-/* Eight bits leave the CRC at a time. They are in `out`, and return at the polynomial's powers 12, 5 and 0. */
+/* Divides by the polynomial x^16 + x^12 + x^5 + 1, eight bits at a time. */
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
         unsigned out = (crc >> 8 ^ bytes[i]) & 0xFFU;

@@ -38,9 +38,9 @@
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* The search for an event takes at most WH_PROBES probes, four more than bisection would need to shrink the interval to
- * WH_BRACKET times its first length. After n probes, its length is at most WH_PROBES_SPARE / 2^(n - 1) times the first.
- * Usually, six to ten probes shrink it to WH_BRACKET_FINE, a limit set by round-off. */
+/* The search for an event takes at most WH_PROBES probes. After n probes, the interval is at most WH_PROBES_SPARE /
+ * 2^(n - 1) of its first length, so the last probe leaves at most the fraction WH_BRACKET. Usually, six to ten probes
+ * reach the fraction WH_BRACKET_FINE, which is the limit set by round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -55,8 +55,8 @@
 /* Maximum number of probes for a stop that a body enters and leaves within one trial step. */
 #define WH_DIP_PROBES 6U
 
-/* Stops and holds are projected twice if the slip of one exceeds this fraction of its expression's change in the step.
- * On a curved contact, one projection leaves an error of second order in the slip. */
+/* Stops and holds are projected twice if the slip of any contact exceeds this fraction of the way that its expression
+ * moves in the step. On a curved contact, one projection leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
 /* Maximum number of projections onto the stops and holds after a step with too many events. */
@@ -92,8 +92,9 @@ typedef enum wh_contact_kind {
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
-    /* Crossing: +1 rising, -1 falling, 0 both. Stop: 2 if an input with a rate moves it, 1 if another input moves it.
-     * Hold: 1 if its expression is straight (J_k constant), -1 if an input with a rate moves it. Otherwise 0. */
+    /* Crossing: +1 rising, -1 falling, 0 both. Friction: 0.
+     * Stop: 2 if an input with a rate moves it, 1 if only other inputs move it, 0 if no input moves it.
+     * Hold: -1 if an input with a rate moves its expression; otherwise 1 if J_k is constant, 0 if not. */
     int8_t direction;
     /* If the expression has one coordinate and J_k is constant (J_k' is 0): that coordinate's index. Otherwise -1. */
     int16_t pin;
@@ -111,21 +112,20 @@ enum {
 
 /* Maximum number of evaluations of the accelerations in one step. Each evaluates `forces` at most once.
  *
- * Each of WH_EVENTS_MAX rounds needs evaluations for:
- * - Two trial steps, one to the step's end and one to the event. Each takes `stages` evaluations, up to three to
- *   project the slip, and one at its end.
- * - The search: one at its begin and one at each probe. If no event depends on a force, only two: at begin and end.
- * - Events: two for an impact, one for a capture, three for assignments, n + 1 for n released contacts.
- *
+ * Each of WH_EVENTS_MAX rounds has:
+ * - two trial steps, to the step's end and to the event. Each has `stages` evaluations, up to three for projections of
+ *   the slip, and one at its end.
+ * - a search: one evaluation at its begin and one at each probe.
+ * - events: two for an impact, one for a capture, three for assignments, n + 1 for n released contacts.
  * Once in a step: the last trial step, its projections, settling the modes, and coordinates that follow inputs. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Maximum number of evaluations of `signals` in one step. Each evaluation of the accelerations needs one, except those
- * at the stages and at the two ends of a search. One more compares the begin of a trial step with its end. A capture
- * needs one, a crossing two, and crossings that may turn back two. One finds crossings at zero when the step begins. */
+/* Maximum number of evaluations of `signals` in one step. Each evaluation of the accelerations has one, except those at
+ * the stages and at the two ends of a search. Others: one at the begin of the step and of each trial step, one for a
+ * capture, two for a crossing, and two if crossings may turn back. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 

@@ -86,7 +86,7 @@ void on_tim2(void) {
     }
 }
 
-/* Also restarts a paused capture, and then drops the times in its registers, because they may be of any age. */
+/* Restarts a paused capture. Before that, old times in the capture registers are dropped. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

@@ -36,7 +36,7 @@ bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t lo
 
 /* Sets a pin's mode, and enables the port's clock. */
 void stm32f4_pin_is(unsigned pin, unsigned what);
-/* Sets a pin's level by one store, which a fault handler may do. */
+/* Sets a pin's level by a single store, so that a fault handler may call it. */
 WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
 }
@@ -44,7 +44,7 @@ static inline bool stm32f4_pin_is_high(unsigned pin) {
     return (reg_load(GPIO_IDR(pin / 16U)) >> (pin % 16U) & 1U) != 0;
 }
 
-/* Sets field `number` of an array of fields of `bits` bits, from register `first` on. No field crosses registers. */
+/* Sets field `number` in the registers from `first` on. All fields have `bits` bits; none crosses registers. */
 void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
 /* Enables an interrupt of the chip. Interrupts do not interrupt each other; faults interrupt all. */

@@ -1,6 +1,6 @@
 /* usart.c: the console on USART6, 115,200 baud, 8 bits, no parity (RM0090, 30), with an interrupt and a ring for each
  * direction. uart_write() polls instead, so that it also works after a fault and before other parts have started.
- * hal_console_offer() feeds a ready transmitter itself, because an empty one may raise no interrupt (QEMU 7.2). */
+ * hal_console_offer() sends the first bytes itself: in QEMU 7.2, an empty transmitter may raise no interrupt. */
 #include "boards/board.h"
 
 #include "ring.h"

@@ -5,8 +5,7 @@
 #include "contact_resolve.h"
 
 /* Finds the contacts that act at the start of a run, before impacts and captures. As bits, *still gets the contacts at
- * rest, and *moving gets the stops that close and the holds that move. A stop acts if its gap is at most round-off, or
- * if it is in `pushed` (bits). A hold acts if its condition is positive, or zero within round-off and not falling.
+ * rest, and *moving gets the stops that close and the holds that move. A stop in `pushed` (bits) counts as touching.
  * work->law must belong to `s`. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
@@ -36,9 +35,9 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
 }
 
 /* Sets the modes at the start of a run and after wh_scene_set_real(). A body beyond a stop is first moved back onto it.
- * Then contacts at rest become active if the forces keep them closed. Last, closing stops are hit and moving holds
- * capture: *hit gets these contacts as bits, impulse[forced] their impulses. Returns the number of moments that count
- * towards WH_EVENTS_MAX: one if a body was moved back, plus one if some contacts were at rest and others moved. */
+ * Then contacts at rest may become active, closing stops are hit and moving holds capture. *hit gets the closing stops
+ * and moving holds, as bits; impulse[forced] gets their impulses. Returns 0 to 2: the moments that count towards
+ * WH_EVENTS_MAX. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *s, unsigned *hit,
                                         wh_real *impulse) {

@@ -48,7 +48,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->mover = k;
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
-        /* a hold's expression may have changed although its signals did not */
+        /* A hold's signals do not include its expression, which may have changed with a coordinate. */
         w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
     unsigned onto = 0; /* bits: crossings whose values were set to zero */
@@ -64,8 +64,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
 
 /* Decides the signs of the crossings in work->stands, whose values are zero within the error of location. The sign is
  * that of the value's first derivative or, if that is zero, of the second. If both are zero, the sign becomes 0. If the
- * event had set the other sign, the value turns back. The error of location may then make it pass zero once more, but
- * work->slack and work->due prevent a second event. */
+ * sign is reversed, work->slack and work->due prevent a second event. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -88,7 +87,7 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                     w->mode[k] = (int8_t)-w->mode[k];
                     /* never 0, because 0 means that the crossing has not turned back */
                     w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
-                    /* larger for a second derivative, because it may vanish at once, for example if friction sticks */
+                    /* larger for a second derivative, which may vanish soon, for example if friction sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }
@@ -111,8 +110,8 @@ WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *s
     }
 }
 
-/* Sets the sign of a crossing in work->stands if the projection of a stop has changed the crossing's value by more than
- * the value's magnitude in before[], the signals before the projection. This is no event. */
+/* Projecting a stop may change the values of crossings. If the value of a crossing in work->stands has changed by more
+ * than its old magnitude, the crossing gets the sign of the new value, without an event. */
 WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *before, const wh_real *signal) {
     unsigned sides = 0;
@@ -124,9 +123,8 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Sets the sign of each crossing without an event to the sign of its value, with two exceptions. If a crossing turned
- * back and its value is not yet farther than work->due from zero, its sign becomes undecided. An undecided sign stays
- * undecided until the value differs from work->stood by more than |work->stood|. */
+/* Sets the sign of each crossing without an event to the sign of its value. If the value is too near to zero, the sign
+ * becomes or stays undecided (see work->due and work->stood). */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;

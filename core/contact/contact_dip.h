@@ -28,9 +28,8 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Finds impacts on the stops in a->leaving. If a stop's gap was positive or closing at `now` and is negative at `next`,
- * the stop was hit: its margin becomes the negative gap. If the gap is positive at both ends, but its tangents there
- * meet below zero, the stop may have been hit in between: its bit in a->dips is set. */
+/* Finds impacts on the stops in a->leaving. A stop was hit if its gap was positive or closing at `now` and is negative
+ * at `next`. If the gap is positive at both ends, but the tangents to it meet below zero, sets the bit in a->dips. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -64,10 +63,8 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
 }
 
 /* Searches the gaps of the stops in a->dips for a negative value. Returns the earliest time found, as a fraction of the
- * trial step, or 1 if there is none. A probe with a positive gap replaces the interval's end whose rate has the same
- * sign. Probes alternate between two points: where the tangents at both ends meet, which suits a distance
- * sqrt(x^2 + y^2), and where a linear rate would be zero, which suits a parabola. If a probe's gap is negative or
- * undefined (at the centre of a round post), the next probe is nearer the surface. */
+ * trial step, or 1 if there is none. Probes alternate between the time at which the tangents at both ends meet and the
+ * time at which a linear rate would be zero. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

@@ -4,10 +4,9 @@
 
 #include "contact_lcp.h"
 
-/* Computes work->force again for all contacts in member[], if a force exceeds its limit or a redundant contact
- * contradicts the others. The redundant contacts are `repeats` (bits of indices in member[]); their forces are zero so
- * far. The new force of a contact that gives way exceeds its limit by the force that is missing to hold it. accel[]
- * changes only after a contradiction. */
+/* Computes work->force again if a force exceeds its limit, or if a redundant contact contradicts the others. `repeats`
+ * are the redundant contacts, as bits of indices in member[]. A contact that gives way gets a force beyond its limit.
+ * accel[] changes only after a contradiction. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -40,7 +39,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
             if (!wh_contact_exceeds(of, w, k, w->force[k])) {
-                /* round-off hides the excess over the limit: use a larger excess */
+                /* round-off hides that the force is beyond its limit: move it farther */
                 w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
                                                    : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
@@ -110,10 +109,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Solves for all impulses at once, adds them to impulse[forced] and applies them to rate[]. Afterwards J_k q' is
- * target[k] for contacts in `set` (bits). It is zero for free stops in `beside` (bits) and for active contacts that are
- * neither frictions nor in `set`. A gap may open faster, because stops do not pull. Returns, as bits, the stops that
- * would have to pull. work->law must have been evaluated at the present position. */
+/* Solves for all impulses at once, adds them to impulse[forced] and applies them to rate[]. J_k q' becomes target[k] of
+ * contacts in `set` (bits), and zero for stops in `beside` (bits) and for all other active stops and holds. But a stop
+ * that would have to pull gets no impulse. Returns these stops as bits. work->law must belong to the position. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

@@ -118,8 +118,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* An impulse may make free stops outside `hits` close, or close more than twice as fast. Adds those that touch within
- * the error of location to work->hit_next, for the next round. before[] and after[] are signals. */
+/* Adds touching free stops outside `hits` to work->hit_next if an impulse has made them close, or close more than twice
+ * as fast. before[] and after[] are the signals before and after the impulse. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -134,9 +134,8 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Returns, as bits, the free stops that take part in the impact of `hits` because they block the motion after it. They
- * touch, have no restitution, and their rate is negligible, compared with the rate that the impact would give them. If
- * such stops had separate plastic impacts, two of them could cause each other's impact for ever. */
+/* Returns, as bits, free stops that touch, have no restitution and are nearly at rest. They take part in the impact of
+ * `hits`, because separate plastic impacts of two such stops could cause each other for ever. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -174,10 +173,9 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Resolves the impact of the stops in `hits` (bits): each bounces, or rests if its flight would be too short. This is
- * decided before the impulse: a bounce, and then a second impulse that stops the body, would release other stops. A
- * resting stop that the impact releases rests again if its flight would be too short. Otherwise a body in a corner
- * would bounce for ever. Returns `hits` and the stops that close at the same time. */
+/* Resolves the impact of the stops in `hits` (bits). Each stop bounces, or rests if its flight would be too short. This
+ * is decided before the impulse, because a second impulse could release other stops. A resting stop that the impact
+ * releases rests again if its flight would be too short. Returns `hits` and the stops that close at the same time. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -246,7 +244,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* the rates would open these stops */
+    if ((gone | leaving) != 0) { /* these stops stay closed, so their rates become zero */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -256,8 +254,8 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
 }
 
 /* Moves bodies that are beyond free stops back onto them; if `coarse`, only those that wh_contact_far() finds. The
- * displacement is the smallest in the metric of the mass matrix. Stops pull only bodies that they pushed too far.
- * Returns, as bits, the stops that were passed or that pushed. Then signal[] and work->law belong to `s`. */
+ * displacement is the smallest in the metric of the mass matrix. *pushed gets the stops that pushed a body, as bits.
+ * Returns these and the stops that were passed. Then signal[] and work->law belong to `s`. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -294,7 +292,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             break;
         }
         if (mover == WH_CONTACTS_MAX) {
-            /* A push was too large: move the bodies back until they touch. The stops may pull in this solution. */
+            /* A push was too large: move the bodies back until they touch. For this, the stops may pull. */
             unsigned kept = 0;
             for (unsigned i = 0; i < count; i++) {
                 const unsigned k = member[i];
@@ -338,7 +336,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* bits: stops that do not touch now: they are not hit */
+        unsigned open = 0; /* bits: stops with an open gap, which get no impulse */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -352,9 +350,8 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 
 /* --- conditions that depend on the held expression --------------------------------------------------------------- */
 
-/* The condition of a hold may depend on the held expression. Such a hold captures at the limit, where the condition is
- * zero. To find the condition's round-off there, the expression is perturbed by the fraction WH_EDGE_PROBE of its
- * terms. The round-off is WH_EDGE times the resulting change of the condition. */
+/* A hold's condition may depend on the held expression. To find the condition's round-off, the expression is changed by
+ * WH_EDGE_PROBE times wh_contact_extent(). The round-off is WH_EDGE times the resulting change of the condition. */
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
@@ -379,8 +376,7 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* Returns the round-off of the condition of hold k if the condition's value `now` does not exceed this round-off,
- * otherwise 0. The result is negative if the condition falls when the held expression rises. */
+/* Returns the round-off of hold k's condition, or 0 if |now| is larger. It has the sign of wh_contact_own(). */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -388,8 +384,8 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* If the error of location has left the condition of a hold in `holds` (bits) negative, moves the held expression until
- * the condition has the opposite value. rates[] are the signals before the capture; signal[] must belong to `s`. */
+/* After a capture, the condition of a hold in `holds` (bits) may be negative by the error of location. Moves the held
+ * expression until the condition is positive. rates[]: signals before the capture. signal[]: signals at `s`. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {
@@ -405,7 +401,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real own = wh_contact_own(of, w, k, input, s, signal[2 * k]);
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
-            /* A larger `by` would mean that the condition hardly depends on the held expression: do not use it. */
+            /* leave a condition that hardly depends on the held expression */
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
                 wanted[i] = by;
                 mover = k;
