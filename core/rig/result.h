@@ -52,7 +52,7 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* fraction of a fixed mount's force: M/(M + m) on a carriage (rig.h) */
+    wh_real mount_factor; /* fraction of the fixed mount's force; carriage: M/(M + m) (rig.h) */
     /* Calibration uncertainties at 95 %: a fraction of the force, and an angle. 0: uncalibrated. */
     wh_real amplitude_floor;
     wh_real phase_floor_rad;
@@ -121,8 +121,9 @@ typedef struct wh_measured {
     wh_real jitter_s;        /* standard deviation of the pulse times */
     wh_real inertia_kgm2;
     wh_real ripple_off_rad; /* error of the modelled speed ripple, from the load's second order */
-    wh_real uncompensated_part; /* remaining fraction of gravity's torque if compensated, else 0 */
-    wh_real at_pulse_N[2];      /* load at each sensor's pulse, minus the tare */
+    /* Remaining fraction of gravity's torque, >= 0, in a compensated run. 0 in a run without compensation. */
+    wh_real uncompensated_part;
+    wh_real at_pulse_N[2]; /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
 /* Half-widths before calibration, for a commercial load cell and sensors in their nominal positions. */

@@ -83,7 +83,8 @@ typedef struct wh_rig_config {
     wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for the rotor to come to rest after a trip */
-    wh_real rest_max_s;    /* longest wait for rest after a run without a trip */
+    /* Longest wait for rest after a run without a trip. After a trip for unreliable pulses, `clear` waits this long. */
+    wh_real rest_max_s;
     /* If true, the motor brakes at a run's end and after `stop`. After a trip or the stop input it always coasts. */
     bool stop_brakes;
     /* If true, the motor coasts after a completed run, even if stop_brakes. The free swing then locates the sensors. */
