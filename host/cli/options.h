@@ -128,7 +128,7 @@ bool options_fail(const char *command, const char *format, ...)
 /* Is this output, which may be NULL, standard output? */
 bool options_is_standard(const char *file);
 
-/* Reports --json with rows of --csv that go to standard output, too, and returns false. */
+/* If both --json and --csv write to standard output, reports this and returns false. */
 bool options_json_is_alone(const char *command, bool json, const char *csv);
 
 /* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
@@ -166,7 +166,7 @@ typedef struct own_option {
     bool is_bare;   /* an option without a value: text gets its word */
 } own_option;
 
-/* Rows of own_option: for numbers, and for options that several commands have. */
+/* Initializers of own_option, with `to` as the variable that gets the number. */
 #define OWN_NUMBER(name, to, from, up_to, such_as) \
     { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as }
 #define OWN_WHOLE(name, to, from, up_to, such_as) \
@@ -196,7 +196,8 @@ typedef struct target_reader {
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* load() of the named target. Without a name: the only scene, or else, if !request.scene, the only mechanism. */
+/* Loads the scene or mechanism that the target names. Without a name, loads the only scene. But if the file has no
+ * scene, or has several and !request.scene, loads the only mechanism. Returns an exit status. */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 

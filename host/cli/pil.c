@@ -1,4 +1,4 @@
-/* pil.c: `whirl pil`: a firmware image with a scene as its plant, or with a tape. */
+/* pil.c: `whirl pil`: runs of a firmware image with a simulated plant, or with the messages of a tape. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -282,7 +282,7 @@ static int run_source(pil_options *o, source_model *from) {
     const tap faults = fault_tap(&o->faults);
     request.taps = &faults;
     request.tap_count = 1;
-    /* faults may change parameters; their values come after those of --set, and so replace them */
+    /* some faults change a parameter, like --set */
     for (unsigned i = 0; i < o->faults.count; i++) {
         options_set(&o->common, fault_parameter(&o->faults, i));
     }

@@ -1,4 +1,4 @@
-/* pricing.c: `whirl price` and `whirl choose`, with the same table of error and cost (host/study/price_table.h). */
+/* pricing.c: `whirl price` and `whirl choose`. Both use the table of error and cost of host/study/price_table.h. */
 #include "pricing.h"
 
 #include <math.h>
@@ -125,7 +125,7 @@ const cost_board *pricing_board(const char *command, const char *value) {
 /* Limit of the operations of all trials without --effort. */
 #define EFFORT 1e9
 
-/* Reads --error, the error of the quantity that --error X=0.1mm or --of names. An unknown one is reported later. */
+/* Reads --error, and the name of its quantity: X of --error X=0.1mm, or of --of X. */
 static bool read_error(pricing *p) {
     const char *text = p->value[PRICING_ERROR];
     const char *command = p->command;
@@ -201,7 +201,6 @@ static bool read_ranges(pricing *p) {
     return true;
 }
 
-/* Do the scenes use the varied values, and can every point start? */
 static bool can_start(pricing *p, const instance *inst) {
     if (!changes_take_part(&p->grid, inst)) {
         return false;

@@ -99,13 +99,13 @@ int pricing_open(pricing *p);
 void pricing_close(pricing *p);
 /* The board of --board. Returns NULL (reported) if it is unknown or has no prices. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* Reads a positive *value, in SI. If `name` is NULL, its dimension is `wanted`; else it is that of this output,
- * coordinate or rate. Returns false after an error (reported). */
+/* Reads a positive *value, in SI. It has the dimension of the output, coordinate or rate `name`, or, if `name` is NULL,
+ * the dimension `wanted`. Returns false after an error (reported). */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
-/* Computes the references at records of this spacing. Returns an exit status. */
+/* Computes the references of p->trial, with records at intervals of `spacing`, in s. Returns an exit status. */
 int pricing_begin(pricing *p, whole_ratio spacing);
-/* Records of `whirl price` until the horizon: at least this number, at most 2.5 times it. */
+/* Least number of records of `whirl price` until the horizon. The most is 2.5 * PRICING_RECORDS. */
 #define PRICING_RECORDS 1000.0
 /* The interval between records: 1, 2 or 5 times a power of ten, in s. It gives `count` to 2.5 * `count` records. */
 whole_ratio pricing_spacing(double until_s, double count);

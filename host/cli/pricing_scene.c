@@ -7,7 +7,7 @@
 #include "host/derive/lagrange.h"
 #include "host/lang/value.h"
 
-/* --- a place in words ------------------------------------------------------------------------------*/
+/* --- changes and points as text --------------------------------------------------------------------*/
 
 char *pricing_quoted(const char *word) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -101,8 +101,7 @@ static bool same_lists(const image_settings *a, const image_settings *b) {
            (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
 }
 
-/* The point's image for these settings, with the scene's step and end, made once. NULL if the scene refuses the
- * settings, or after an error (reported). */
+/* Finds or makes the point's image. Returns NULL if the scene refuses the settings, or after an error (reported). */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
     for (int i = 0; i < p->made_count; i++) {
         if (p->made[i].point == point && same_lists(&p->made[i].settings, settings)) {

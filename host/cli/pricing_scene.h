@@ -29,20 +29,20 @@ typedef struct pricing_scene {
     trial_source source;
 } pricing_scene;
 
-/* PRICING_PLACES_MAX: most points of the grid. PRICING_PLACES: values of a range such as a=1..2 (a=1..2:5 has 5). */
+/* PRICING_PLACES_MAX: most points of the grid. PRICING_PLACES: values of a range without a count, such as a=1..2. */
 enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
                                  const grid *g, diags *errors);
 /* Adds a point with the scene's own values, unless the grid has it. Call this before making an image. */
 void pricing_scene_add_own(pricing_scene *p, const instance *own);
-/* Lends an image, or NULL, made with these settings. The caller still frees it. */
+/* Lends point 0 an image, made with these settings. The caller still frees it. If `lent` is NULL, does nothing. */
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is allowed */
 
 /* A word, quoted for a shell if necessary; to be freed. */
 char *pricing_quoted(const char *word);
-/* The changes as options, with a blank before each; if as_label, as in "m=2, with drag" instead. To be freed. */
+/* The changes as options, with a blank before each. If as_label, as a list such as "m=2, with drag". To be freed. */
 char *pricing_words(const overrides *c, bool as_label);
 
 #endif

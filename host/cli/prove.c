@@ -78,7 +78,7 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
                                "'%s%.*s' is given twice on the command line", a.symbol->name,
                                a.primes, "'''''''''");
                 }
-                within[s] = enclosure_below(value); /* the typed decimal may be below `value` */
+                within[s] = enclosure_below(value); /* `value` may be rounded up */
             }
         }
     }
@@ -178,7 +178,7 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
 static int prove_loaded(const prove_options *o, const loaded *made, diags *errors) {
     const image *im = made->image;
     exact_motion *m = NULL;
-    /* Two runs: one measures the ranges, the other is compared with the tube. The tube has a limit of its own. */
+    /* This limits the two runs before the proof. products_most limits the proof. */
     if (effort_suffices("prove", o->effort, step_doubling_operations(im),
                         "use an earlier --until, or a longer --step",
                         "two runs of %.3g steps, before the proof", (double)im->steps) &&

@@ -34,13 +34,12 @@ static void say_none(FILE *out, const rating_request *w, const char *why, const 
 
 /* RECORDS_MOST: most records of the run. SPACING: a record's interval is a multiple of this many steps. */
 enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
-/* Steps computed for each step of the run. The rows use 2, 1 and 1/2 times its length; the reference, 1/4 and 1/2. */
+/* Each term: the steps of one row or one reference, per step of the run. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
 static double operations_of(const rating_request *w, const setting *s, double steps) {
-    const double runs =
-        setting_is_fixed(s) ? 2.0 : 1.0; /* a first run finds the ranges of fixed point */
+    const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* a first run measures the ranges */
     const double each = ROWS_STEPS * runs * wh_methods[s->image.method].stages +
                         REFERENCE_STEPS * wh_methods[step_doubling_method(w->image)].stages;
     return steps * each * (double)engine_evaluation(w->image);
@@ -74,8 +73,7 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
             r->ran ? trial_column(t, r->column, name) : "no such step");
 }
 
-/* Prints error and cost at twice the step, at the step and at half of it: a short form of the table of `whirl price`.
- * The reference is in double, at a quarter of the step. `steps`: at least two. */
+/* Prints three rows: for 2, 1 and 1/2 times the run's step. `steps`: length of the comparison, at least 2. */
 static void print_rows(FILE *out, const rating_request *w, const pricing_scene *p, const setting *s,
                        const image_settings *plain, uint64_t steps) {
     const uint64_t pairs = steps / SPACING;
@@ -125,7 +123,7 @@ static const char *why_none(const rating_request *w, const setting *s,
     if (trust->still) {
         return "nothing moves";
     }
-    if (w->image->contacts > 0) { /* `whirl choose` counts the cost of events in an emulator */
+    if (w->image->contacts > 0) {
         *command = on_board ? "choose --error 1e-3" : "price";
         return "events make the cost of a step depend on the motion";
     }
@@ -175,10 +173,9 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
  * this interval divided by 1, 2, 4, 5, 8, 10, 20, ... */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Limit on the operations of all tries: about half a second. Comparing them with the reference takes as long. */
+/* Limit on the operations of all tries: about half a second. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
-/* From long to short steps. */
 static deviation_pace pace_at(int i) {
     static const uint64_t spacings[PACES_LONG] = {50, 40, 25, 20, 16, 10, 8, 5, 4, 2};
     static const uint64_t parts[] = {1, 2, 4, 5, 8};
@@ -192,8 +189,7 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Reports that no pace satisfies --error. `least`: the smallest error found. `rounds`: it is mainly round-off. `slow`:
- * NULL, or the first pace that was not tried, because it would raise the sum of all tries to `operations`. */
+/* `slow`: NULL, or the first pace that was not tried because of TRIES_OPERATIONS. */
 static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
                         const deviation_pace *slow, double operations) {
     char text[NUMBER_SIZE];
@@ -219,14 +215,15 @@ static void say_no_pace(const trials *t, const setting *s, double least, bool ro
             s->number == &engine_float ? ", or --number double" : "");
 }
 
-/* Returns the number of the first pace that satisfies --error, or -1 (reported). *longest: no longer pace was tried. */
+/* Tries paces from long to short. Returns the index of the first that satisfies --error, or -1 (reported).
+ * *longest is false if a longer pace failed. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = (double)INFINITY;
     double operations = 0.0; /* of all tries */
     bool slow = false;
-    int falls = 0; /* tries with an error below 0.7 times the least error before */
-    int stuck = 0; /* tries since the last fall. If falls >= 3, two such tries show round-off. */
+    int falls = 0; /* tries with an error below 0.7 * least */
+    int stuck = 0; /* tries since the last fall */
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
         *pace = pace_at(i);
@@ -273,7 +270,7 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     return warned;
 }
 
-/* If *pace has warnings, replaces it by the first of six shorter ones that satisfies --error without warnings. */
+/* If *pace has warnings, tries shorter paces. Returns true if it replaced *pace by one without warnings. */
 static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
                           trial_result *r) {
     enum { MORE = 6 };

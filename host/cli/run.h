@@ -25,8 +25,8 @@
         .word = "--ylabel", .text = &(choice).ylabel \
     }
 
-/* Like command_run() with these words and --quiet, but draws no picture. *taken gets the decimated data
- * for a picture of this choice of curves. Call plot_run_close() in any case. */
+/* Runs a scene like `whirl run --quiet` with these words. *taken gets the data of a picture of the chosen curves.
+ * Free it with plot_run_close(), also after an error. Returns an exit status. */
 int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
 
 #endif

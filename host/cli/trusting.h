@@ -7,7 +7,8 @@
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
 
-/* Makes *plan, a step in fixed point. The caller frees it. A run measures undeclared ranges. Returns an exit status. */
+/* Sets *plan and im->fixed to the plan of the step in fixed point. The caller frees *plan. If ranges are not declared,
+ * a run in double measures them. Returns an exit status. After an error (reported), *plan is NULL. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
 /* Is this number of operations within --effort? If not, reports the estimated time of `what`, and `hint`. */
