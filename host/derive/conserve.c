@@ -29,7 +29,7 @@ static const char *influence_on(const equations *e, int i, place *at) {
             return contact_called(law->from->kind);
         }
     }
-    return "nothing"; /* not reached: only a driven coordinate has no cause, and no scene conserves one */
+    return "nothing"; /* not reached */
 }
 
 /* Does a force, a loss or a contact depend on the coordinate's position? Energies are not checked. */
@@ -155,8 +155,8 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
 typedef struct momentum_law {
     double momentum;    /* constant value of the momentum, SI */
     double start;       /* value of G(q) (conserve.h) at the start */
-    const poly **mass;  /* [equations->count] coefficients of the rates */
-    const poly *others; /* the terms of G(q) without conserved coordinates */
+    const poly **mass;  /* [equations->count] momentum = sum_j mass[j] q_j' */
+    const poly *others; /* sum of the terms of G(q) that contain no conserved coordinate */
 } momentum_law;
 
 /* Solves sum_l m_kl x_l = right_k for x by Cramer's rule, over the conserved coordinates l. */
@@ -183,7 +183,7 @@ static void solve_conserved(const equations *e, const conservation *c, const mom
 
 const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
 
-/* Solves for the conserved rates, from the momenta and other rates; if `closed`, also for the conserved coordinates. */
+/* Sets c->rate[] and, if c->closed, c->value[]. */
 static void recover(const equations *e, conservation *c, const momentum_law *laws) {
     algebra *a = e->algebra;
     const poly *rates[CONSERVED_MAX];

@@ -19,8 +19,8 @@ typedef struct maker {
     image_draft *draft;
     image *made;
     const equations *equations;
-    int *input; /* [inputs of the mechanism] number in the image, or -1 */
-    int *let;   /* [lets of the mechanism] node, or -1 */
+    int *input; /* [mechanism->input_count] index in image.input, or -1 */
+    int *let;   /* [mechanism->let_count] index of its node, or -1 */
     known polys;
     known atoms;
 } maker;

@@ -277,8 +277,7 @@ static const poly *no_rate(void *context, algebra *a, const symbol *s, int prime
     return s->kind == SYM_COORDINATE && primes == 1 ? poly_number(a, 0.0) : NULL;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If the masses contain no rates and the
- * momenta are linear, T = q' M q'/2 plus at most a part without rates. */
+/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? */
 static bool is_quadratic(const equations *e) {
     bool quadratic = !has_rates(e, e->stored) && !energy_mass_has_rates(e);
     for (int i = 0; i < e->count && quadratic; i++) {

@@ -56,7 +56,7 @@ typedef struct statement_force {
     const poly *power;
 } statement_force;
 
-/* The forces of the active statements in the file's order; *count is 0 for a system. The algebra may overflow. */
+/* Returns the forces of the *count active statements Q and F, in the order of the file. A system has none. */
 statement_force *forces_derive(algebra *a, const instance *inst, int *count);
 
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i);
@@ -74,9 +74,9 @@ typedef struct equations {
     int count;         /* number of unknowns, and of equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
-    /* relative error of the accelerations from the rounding of mass[]: the smallest of the tried states */
+    /* relative error that round-off in mass[] causes in the accelerations, at the tried state where it is smallest */
     double mass_blur;
-    folding folding;       /* records the losses of constant folding */
+    folding folding;       /* losses of digits in constant folding (folding.h) */
     const poly **velocity; /* [count] centrifugal and Coriolis terms; zero for a system */
     /* [count] dV/dq. For a system: left minus right side of each equation, without the highest derivatives */
     const poly **potential;
@@ -88,20 +88,20 @@ typedef struct equations {
     statement_force *force; /* [forces] one for each active statement Q or F */
     int forces;
     const poly **momentum;  /* [count] dL/dq' */
-    bool *conserved;        /* [count] momentum[i] is constant: no force, no potential, no loss */
+    bool *conserved;        /* [count] true if momentum[i] is constant */
     const poly **output;    /* [mechanism->output_count] */
     contact_laws *contacts; /* stops, holds, frictions, crossings; NULL without contacts */
 } equations;
 
 void equations_free(equations *e); /* `e` may be NULL */
 
-/* Returns expression i of contact k: LAW_POLYS ones (value, speed, first, second, bias), then row[] or a crossing's
- * set[]; then NULL. */
+/* Returns expression i of contact k, or NULL if i is too large. The first LAW_POLYS are value, speed, first, second and
+ * bias. The next are those of row[], or of set[] for a crossing. */
 enum { LAW_POLYS = 5 };
 const poly *contact_law_poly(const equations *e, int k, int i);
 
-/* A poly_value, with a uint64_t as its context: the value of a coordinate, rate or input at the generic state *seed. It
- * is a hash of seed and symbol, between 0.1 and 1.8 for even seeds, and between -0.9 and 0.8 for odd seeds. */
+/* A poly_value. Returns a hash of *seed (a uint64_t), s and primes. It is between 0.1 and 1.8 if *seed is even, and
+ * between -0.9 and 0.8 if *seed is odd. */
 double equations_generic(void *seed, const symbol *s, int primes);
 
 void equations_report_growth(const equations *e, diags *errors);
@@ -113,13 +113,13 @@ const poly *equations_force(const equations *e, int i);
 const poly *equations_fold(const equations *e, const poly *p);
 
 /* === the energy in the balance ================================================================ */
-/* The balance uses the energy integral h (Jacobi's):
+/* The balance uses the energy integral h (Jacobi's), with inputs u_k:
  *
- *     h = sum_i q_i' dL/dq_i' - L,      dh/dt = sum_i q_i' (Q_i - dF/dq_i') - (dL/dt of the inputs).
+ *     h = sum_i q_i' dL/dq_i' - L,      dh/dt = sum_i q_i' (Q_i - dF/dq_i') - sum_k u_k' dL/du_k.
  *
  * Only the forces Q, the dissipation function F and the inputs change h (Goldstein, Classical Mechanics, section 2.7).
- * If T is a homogeneous quadratic form of the rates and V contains no rate, h is T + V. Otherwise T + V also changes by
- * work that no statement of the file mentions, such as that of the drive of a turntable. */
+ * If T is a homogeneous quadratic form of the rates and V contains no rate, h equals T + V. Otherwise T + V can also
+ * change by work that the file does not mention, such as the work of a turntable's drive. */
 
 /* Returns h, with folded constants. Returns NULL for a system, or if h equals T + V. */
 const poly *energy_integral(const equations *e);

@@ -43,7 +43,7 @@ static void time_it(image *im, const instance *inst) {
 /* is_written() examines at most this many subexpressions. Each let may double them, as in p*p with p = q*q. */
 enum { MOST_PARTS = 1000 };
 
-/* Is the expression made of literal numbers, without sums and calls? Otherwise a value near zero may be round-off. */
+/* Is the expression a constant without sums and calls? These may give round-off instead of zero. */
 static bool is_written(const instance *inst, const expr *e, int *parts) {
     if (++*parts > MOST_PARTS) {
         return false;
@@ -243,8 +243,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     }
     image_draft *d = &p->draft;
     image *im = d->made;
-    /* Scales the list of a compensated step. Exceptions: variants never run in float, the lists of contacts use the
-     * step's mass matrix, and tables are rounded separately. */
+    /* contacts forbid scaling, because their lists use the step's mass matrix */
     if (settings->compensated && im->contacts == 0 && settings->tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&im->list[IMAGE_STEP], op_list_scaling_price(im->list[IMAGE_STEP]));
@@ -276,7 +275,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
     *im = *base;
     im->memory = memory;
     im->base = base->base != NULL ? base->base : base;
-    im->finer = NULL; /* the finer image of `base` has the starts of `base` */
+    im->finer = NULL; /* base->finer has the starts of `base`, not those of `inst` */
     time_it(im, inst);
     im->unknown = copy(&d, base->unknown, im->count, sizeof *im->unknown);
     for (int i = 0; i < im->count; i++) {
@@ -299,7 +298,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If the largest loss (folding.h) exceeds this, an image to run or to check gets variants with other foldings. */
+/* image_make() makes variants only if folding.lost exceeds this limit. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
@@ -321,7 +320,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* Makes the scene's image again in another way of folding. Returns NULL if that fails, or if it is not alike `im`. */
+/* Makes a variant of `im` with folding `way`. Returns NULL if that fails, or if the two are not is_alike(). */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

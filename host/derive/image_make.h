@@ -9,14 +9,14 @@
  * check also has the image of its finer run (image.finer). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
-/* Returns an image with the lists of `base`, and the starts, inputs, step and end of `inst`, an instance of the same
- * mechanism and scene with the same parameters. If the step differs, makes another matrix, or returns NULL (reported).
- * Free `base` last. */
+/* Returns an image with the lists of `base`. Starts, inputs, step and end are those of `inst`, which must have the same
+ * mechanism, scene and parameters as `base`. If the step differs, the matrix (if any) is made again. Returns NULL
+ * (reported) if that fails. Free `base` last. */
 image *image_again(const image *base, const instance *inst, diags *errors);
 
-/* Returns the image of an instance with the equations `e`, and its variants; NULL after an error (reported, see
- * program_make()). `conserve` [count] selects the coordinates to recover from their momentum, or is NULL. The image has
- * no pointers to `e`, the instance or the model. */
+/* Returns the image of e->instance, with its variants, or NULL after an error (reported). If conserve[i] is true,
+ * coordinate i is recovered from its momentum. `conserve` may be NULL. The image has no pointers to `e`, the instance
+ * or the model. */
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors);
 

@@ -7,7 +7,7 @@
 
 typedef struct image_draft {
     image *made;
-    /* [sources] the sources to which places refer, and their copies. The arrays, too, are in the image's memory. */
+    /* [sources] copy[i] is the copy of original[i]. The image's memory owns the copies and both arrays. */
     const source **original;
     source **copy;
     int sources;

@@ -11,7 +11,7 @@
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
-#define PASSES 16 /* rounds of scale_general(); each halves the error of the scales' logarithms */
+#define PASSES 16      /* number of rounds in scale_general() */
 #define NO_PIVOT 4e-14 /* a smaller pivot of a scaled matrix counts as zero: it is round-off */
 
 /* A power of two within a factor of two of 1/sqrt(x); 1 if x is not positive and finite. */
@@ -49,7 +49,7 @@ static bool has_positive_diagonal(const double *m, int n) {
     return true;
 }
 
-/* Divides each row, then each column, by about the root of its largest entry. Does this PASSES times. */
+/* Divides each row, then each column, by about the square root of its largest entry. Repeats this PASSES times. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -99,7 +99,7 @@ bool rank_is_positive(double *m, int n) {
 #define TRY_START TRIES
 #define ENTRY_ROUNDING 4e-16 /* round-off of an entry, relative to the sum of its terms' sizes */
 #define MASS_BLUR_FINE \
-    1e-10 /* if mass_blur is below this, the search for a state with a smaller one ends */
+    1e-10 /* equations_check_solvable() tries no more states when mass_blur is at most this */
 
 enum { HINT_SIZE = 320 };
 
@@ -156,7 +156,7 @@ static int dependent_row(const equations *e) {
     return found;
 }
 
-/* The place of active statement number `which` of this kind, counted from 0; of the mechanism if there is none. */
+/* Returns the place of active statement number `which` (from 0) of this kind, or the mechanism's place. */
 static place place_of(const instance *inst, term_kind kind, int which) {
     const mechanism *m = inst->mechanism;
     for (int i = 0; i < m->term_count; i++) {
@@ -202,7 +202,7 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     return NULL;
 }
 
-/* *most: the largest number of tried states at which one term of T is negative. Returns this term; NULL for 0. */
+/* Returns the term of T that is negative at the largest number of tried states, or NULL. *most is this number. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -281,7 +281,7 @@ static bool energies_finite(const equations *e, generic_state *state) {
 /* The result of one tried state, from worst to best. */
 typedef enum solvability { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } solvability;
 
-/* The largest error of a regular matrix after rank_of(), divided by its smallest pivot. */
+/* m and error come from rank_of(): the nonzero entries of m are its pivots. */
 static double blur_of(const double *m, const double *error, int n) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -313,14 +313,12 @@ static solvability solvability_at(const equations *e, int try, double *m, double
         return SINGULAR;
     }
     *blur = blur_of(m, error, n);
-    /* Elimination needs a mechanism's matrix to be positive definite. A system's rows may have any order and sign. */
+    /* only a mechanism's matrix must be positive definite */
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
-/* Returns false, with an error that names the cause, if the mass matrix is singular or undefined at all tried states.
- * A mechanism's mass matrix must also be positive definite at one of them; otherwise a mass is negative. A
- * matrix that is singular only at some states, such as a pole of spherical coordinates, passes: the run finds these
- * states. Sets e->mass_blur. */
+/* Sets e->mass_blur. Returns false (reported) if no tried state is SOLVABLE. A matrix that is singular only at some
+ * states, such as a pole of spherical coordinates, passes. */
 static bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);

@@ -8,13 +8,14 @@
 
 /* === the rank of a matrix of numbers, independent of its units ================================ */
 
-/* The rank of m[n * n], by rows, with entries known to within error[n * n] >= 0. Both are overwritten. If the matrix is
- * regular, each row of m then has one pivot, and zeros elsewhere.
+/* Returns the rank of m[n * n], stored row by row. error[n * n] >= 0 are the error bounds of its entries. Overwrites m
+ * and error. If the matrix is regular, the only nonzero entry of each row of m is then its pivot.
  *
  * Rows and columns are first scaled by powers of two, so that units of coordinates and ratios of masses do not matter.
  * If `symmetric` and the diagonal is positive, the diagonal becomes about one (van der Sluis, "Condition numbers and
  * equilibration of matrices", 1969: no scaling of a positive definite matrix does much better). Otherwise the largest
- * entries become about one (Ruiz, 2001). A pivot counts as zero if it is within the error bound of its elimination. */
+ * entry of each row and column becomes about one (Ruiz, 2001). A pivot counts as zero if it is at most n times the
+ * largest scaled error, or round-off. */
 int rank_of(double *m, double *error, int n, bool symmetric);
 
 /* Is a regular symmetric matrix positive definite? m is overwritten. */

@@ -83,7 +83,7 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     return op_list_leaf(t, OP_LINEAR, real);
 }
 
-/* Is this derivative in the state? A conserved unknown's rate never is. Its value is if the unknown is integrated. */
+/* Is this derivative of unknown i in the state? */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;
