@@ -3,9 +3,7 @@
  * pointers to the model or the algebra. host/engine and host/emit read only the image.
  *
  * Arrays state their length in brackets. Units are SI, angles are in radians, and an `index` counts from 0. Texts are
- * never NULL.
- *
- * A new list gets a role. A property of each operation, such as a range, is stored beside its list, by role. */
+ * never NULL. */
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
@@ -18,14 +16,13 @@ enum { IMAGE_WAYS = 6 }; /* most variants of an image, each with another way of 
 
 #define IMAGE_COMPONENTS_MAX 64 /* second order: most coordinates; first order: most components */
 
-/* Each setting below is a list of rows X(id, word), with the word in options and descriptions. As X, these macros give
- * the ids, the words, and the number of rows. */
+/* Each setting below is a list of rows X(id, word). Options and descriptions use the word. */
 #define IMAGE_ROW_ID(id, word) id,
 #define IMAGE_ROW_WORD(id, word) word,
 #define IMAGE_ROW_ONE(id, word) +1
 
-/* How the stages of a step get the sines of turn angles. ANGLES_TURNED: computed once per step, then rotated, if
- * possible (core/step/stage_turn.h). ANGLES_LOOKUP: at each stage (core/step.h). */
+/* How often a step computes the sines of turn angles. ANGLES_LOOKUP: at each stage. ANGLES_TURNED: once, if
+ * image_turns(); the stages rotate these sines (core/step/stage_turn.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -33,8 +30,8 @@ typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ROW_ID) } image_angles;
 enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
-/* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with
- * inputs constant during the step, or the result of WH_RK4. */
+/* A step of a linear mechanism may be one constant matrix (core/step/matrix_step.h). MATRIX_EXACT gives the exact
+ * motion if the inputs are constant during the step. MATRIX_RK4 gives the same step as WH_RK4. */
 #define IMAGE_MATRIX_ROWS(X) \
     X(MATRIX_NONE, "none") \
     X(MATRIX_EXACT, "exact") \
@@ -43,8 +40,8 @@ typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_ROW_ID) } image_matrix_of
 enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
-/* How functions of a single turn angle in the accelerations are obtained: computed, or interpolated linearly or
- * cubically in tables of one turn (core/step/table.h). */
+/* The accelerations contain functions of one turn angle. A step computes these functions (TABLES_NONE), or interpolates
+ * them in tables of one turn (core/step/table.h). */
 #define IMAGE_TABLES_ROWS(X) \
     X(TABLES_NONE, "none") \
     X(TABLES_LINEAR, "linear") \
@@ -63,20 +60,19 @@ typedef struct image_settings {
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;
-    /* cells of a table for one turn: a power of two; 0: the default of the table's form */
-    int cells;
+    int cells; /* number of cells of a table of one turn: a power of two, or 0 for the default */
 } image_settings;
 
 #define IMAGE_SETTINGS_DEFAULT \
     { WH_METHOD_DEFAULT, false, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
 
 typedef enum image_role {
-    /* result[i]: acceleration of the scene's coordinate i; in first order, derivative of component i, angles first */
+    /* result[i]: the acceleration of the scene's coordinate i. In first order: the derivative of image_component(i) */
     IMAGE_STEP,
     /* the outputs, then value and rate of each coordinate recovered from its momentum */
     IMAGE_OBSERVE,
-    /* the highest derivative of each unknown. If `has_energies`, the results BOOK_KINETIC, ... follow, and last the
-     * energy integral if it is not T + V */
+    /* the highest derivative of each unknown; then BOOK_KINETIC, ... if `has_energies`; then the energy integral if
+     * `has_integral` */
     IMAGE_BOOKS,
     IMAGE_SIGNALS, /* IMAGE_SIGNALS to IMAGE_SETS: for contacts (core/contact.h) */
     IMAGE_FORCES,
@@ -88,7 +84,7 @@ typedef enum image_role {
     IMAGE_ROLES
 } image_role;
 
-/* Results of IMAGE_BOOKS after its `count` highest derivatives. BOOK_MOMENTA begins the momenta of all unknowns. */
+/* Results of IMAGE_BOOKS after its `count` highest derivatives. BOOK_MOMENTA is the first of `count` momenta. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* The unit in which a number is displayed, and its SI unit. */
@@ -129,8 +125,7 @@ typedef struct image_unknown {
     int starts;              /* number of start values: the order, but at least 2 */
     double *start;           /* [starts] value, rate, ... */
     place *start_at;         /* [starts] place of the value; `source` is NULL for a default */
-    /* start[0] is given without a sum or call; if false, a value near zero may be round-off */
-    bool start_written;
+    bool start_written;      /* the file gives start[0] without a sum or call */
 } image_unknown;
 
 /* An input with a rate. During a step, the components real[value_at] and real[rate_at] are its value and rate. */
@@ -159,15 +154,15 @@ typedef struct image_range {
 typedef struct image_contact {
     int kind;              /* wh_contact_kind */
     const char *word;      /* word of the statement: "stop", "hold", ... */
-    const char *undefined; /* for messages: "the condition of this hold, or its expression," */
+    const char *undefined; /* subject of a message: "the restitution, or the gap, of this stop" */
     int direction;
     int pin;
     int first_set;
     int sets;
     const char *unit; /* SI unit of a stop's gap; "1" for other kinds */
     place at;
-    int first_question, questions; /* index of its first question in diagnostics; their number */
-    int first_late, late; /* the same for expressions that are evaluated only at an impact */
+    int first_question, questions; /* range of the contact's questions in diagnostics.question */
+    int first_late, late;          /* range of its questions that matter only at an impact */
 } image_contact;
 
 typedef enum ledger_kind {
@@ -186,19 +181,18 @@ typedef struct image_entry {
 
 typedef struct image_ledger {
     bool kept;          /* the run has a ledger */
-    bool asked;         /* requested by `with ledger`; else the ledger only balances the run */
-    int smooth;         /* number of continuous entries, between events */
-    int entries;        /* number of all entries (core/ledger.h) */
+    bool asked;         /* `with ledger` or stabilization requests the ledger */
+    int smooth;         /* number of smooth entries (core/ledger.h) */
+    int entries;        /* number of all entries */
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
     int inputs;         /* number of inputs on which the energies depend */
-    bool turned;        /* the rate of an entry has a turn angle outside sines and cosines */
+    bool turned;        /* IMAGE_POWERS reads angles with all their turns */
     image_entry *entry; /* [smooth] */
     int *unknown;       /* [accounts] the unknown of a momentum; -1 for the energy */
     int *input;         /* [inputs] indices of the image's inputs */
 } image_ledger;
 
-/* The file's expressions as written, unfolded, operation by operation, so that a message can point at the undefined
- * part. An expression that occurs twice is entered twice. */
+/* Operations of the file's expressions. Constants are not folded, so that a message can point at the undefined part. */
 typedef enum diagnostics_code {
     DIAGNOSTICS_NUMBER, /* number */
     DIAGNOSTICS_STATE,  /* derivative b of unknown a */
@@ -216,7 +210,7 @@ typedef enum diagnostics_code {
 typedef struct diagnostics_node {
     diagnostics_code code;
     function_id function;
-    int a; /* a and b: indices of earlier nodes, except for DIAGNOSTICS_STATE and DIAGNOSTICS_INPUT */
+    int a; /* a and b: indices of earlier nodes, unless diagnostics_code says otherwise */
     int b;
     double number;
     place at; /* place in the file; `source` is NULL in a derived expression */
@@ -233,10 +227,10 @@ typedef struct diagnostics_question {
 typedef struct image_diagnostics {
     diagnostics_node *node; /* [nodes] */
     int nodes;
-    diagnostics_question *question; /* [questions] first `terms`, then `sets`, then contacts */
+    diagnostics_question *question; /* [questions] about terms, then sets, then contacts */
     int questions;
-    int terms; /* number of energies, losses, forces, equations, and their derivatives */
-    int sets;  /* number of values that crossings set */
+    int terms; /* number of questions about energies, losses, forces and equations */
+    int sets;  /* number of questions about values that crossings set */
 } image_diagnostics;
 
 /* A step x+ = Phi x + Gamma u + g of the state x (angles first) with the inputs u, in SI units and radians. */
@@ -248,7 +242,7 @@ typedef struct image_matrix {
 
 typedef struct image {
     struct arena *memory;
-    /* owner of the lists, which must outlive this image; NULL: this image */
+    /* the image that owns the lists and must outlive this image. NULL if this image owns them */
     const struct image *base;
 
     const char *name; /* name of the scene; without a scene, of the mechanism */
@@ -276,11 +270,11 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* parameters of the mechanism and of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* [ways] variants: images with other constant folding (folding.h). Only lists, starts and inputs are used. */
+    /* [ways] variants: the same scene with other constant folding (host/number/folding.h) */
     struct image *otherwise[IMAGE_WAYS];
     int ways;               /* 0 if folding lost no digits */
-    struct image *finer;    /* image for the finer run; NULL if it uses this image */
-    bool unbounded;         /* with other constant folding, a number of the file is not finite */
+    struct image *finer;    /* image of step doubling's finer run; NULL if it is this image */
+    bool unbounded;         /* a variant failed: a constant was not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
@@ -299,7 +293,7 @@ typedef struct image {
     image_range *range; /* [reals + inputs] components, then inputs */
     /* [angles] declared ranges of turn angles, which fixed point ignores */
     image_range *angle_range;
-    /* the run in fixed point (host/fixed), which the image does not own; or NULL */
+    /* plan of a run in fixed point (host/fixed), or NULL. The image does not own it. */
     const struct fixed_plan *fixed;
 
     bool has_energies; /* the scene is given by energies, not by equations */
@@ -322,17 +316,17 @@ typedef struct image {
 
 void image_free(image *im); /* `im` may be NULL */
 
-/* Writes the settings of the finer run (host/check/step_doubling.h): `of` without tables, and with compensated sums if
- * it has MATRIX_EXACT. Returns false if they equal `of`. */
+/* Writes the settings of the finer run (host/check/step_doubling.h): those of `of`, but without tables. If `of` has
+ * MATRIX_EXACT, sums are compensated. Returns false if *finer equals *of. */
 bool image_settings_finer(const image_settings *of, image_settings *finer);
 
 component image_component(const image *im, int i); /* angles come first */
 /* Returns the index of the component that is this derivative of this unknown, or -1. */
 int image_find_component(const image *im, int unknown, int primes);
 
-/* The method's title, or the kind of matrix. */
+/* Returns the kind of matrix, or the method's title if settings.matrix is MATRIX_NONE. */
 const char *image_stepper(const image *im);
-/* The words after image_stepper(): " compensated", " stabilized", both, or "". */
+/* Returns "", or words to print after image_stepper(), such as " compensated, stabilized". */
 const char *image_sums(const image *im);
 
 /* Converts an SI value to the displayed unit. image_shows_si(): is this unit the SI unit? */
@@ -358,11 +352,10 @@ size_t memory_double_bytes(const image *im);
 
 /* === sines of turn angles ===================================================================== */
 
-#define TURNED_WAVES_MAX 256 /* most phases whose sines a step rotates */
+#define TURNED_WAVES_MAX 256 /* a step rotates the sines of at most so many phases */
 
-/* Does a step rotate its sines instead of computing them at each stage? This depends only on the image's step and
- * settings, so that interpreter and generated code agree. It is false with --angles lookup, a matrix, tables in place
- * of sines, contacts, no turn angle, or a method or list that does not support it. */
+/* Does a step rotate its sines instead of computing them at each stage? Interpreter and generated code both ask this
+ * function, so that they agree. */
 bool image_turns(const image *im);
 
 #endif

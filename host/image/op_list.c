@@ -31,7 +31,7 @@ void op_list_free(op_list *t) {
     free(t);
 }
 
-/* op_row.values by kind */
+/* The value of op_row.values for each op_kind. */
 enum { VALUES_CONSTANT = 0, VALUES_LEAF = 0, VALUES_PHASE = 0, VALUES_CELL = 0 };
 enum { VALUES_WAVE = 1, VALUES_UNARY = 1, VALUES_LOOKUP = 1 };
 enum { VALUES_BINARY = 2, VALUES_CALL = 2 };
@@ -63,7 +63,7 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-/* Stands for "no function" in model hashes: the number of functions when hashes were introduced. It must not change. */
+/* Model hashes depend on this number, so it must not change. */
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t op_list_op_hash(const op_list *t, const op *o) {
