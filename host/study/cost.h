@@ -120,7 +120,7 @@ typedef struct cost_row {
     const char *board;
     cost_number number;
     cost_quantity quantity;
-    double within;  /* nine of ten counted steps are within this factor of the prediction */
+    double within;  /* prediction / within <= count <= prediction * within in nine of ten cases */
     double longest; /* the longest step divided by the mean step; 1 for bytes */
     double figure[COST_CLASSES]; /* of one operation, or COST_UNSEEN */
 } cost_row;
@@ -142,7 +142,7 @@ typedef struct cost_figure {
 typedef struct cost {
     const char *why;                /* reason for unknown figures, in words, or "" */
     cost_figure instructions;       /* mean over the steps of a run */
-    cost_figure instructions_worst; /* of the longest step; contacts raise it far above the mean */
+    cost_figure instructions_worst; /* of the longest step of a run */
     cost_figure cycles;             /* mean over the steps of a run */
     cost_figure cycles_worst;
     /* Figures of a minimal firmware that steps the scene and computes its outputs (boards/programs/size.c): */
@@ -166,15 +166,16 @@ cost_figure cost_known(double value, cost_basis basis);
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 enum { COST_COLUMNS = 15 };
-/* Cuts a row at its commas outside quotes. Returns false unless it has this number of columns. */
+/* Cuts a row at its commas outside quotes. Returns false if its number of columns is not `columns`. */
 bool cost_cut(char *row, char **column, int columns);
 
-/* The number of columns in a row of counts, and indices of five. The last three columns: bytes of flash, RAM, stack. */
+/* A row of counts has `columns` columns; the last three are bytes of flash, RAM, stack. Other members: indices. */
 typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;
 extern const cost_layout cost_step_layout; /* of COST_HEADER */
-/* Cuts a row into column[at->columns]. The row's counts replace smaller figures in `c`. False: no row of this board. */
+/* Cuts a row into column[at->columns], and raises smaller figures of `c` to its counts. Returns false if the row has
+ * another layout or board, or does not count instructions. */
 bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c);
 
 #endif

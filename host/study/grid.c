@@ -229,7 +229,7 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
 static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
                       diags *errors, axis *made) {
     struct arena *arena = arena_new();
-    /* TO is read first: if both ends lack a unit, the hint must add one to TO, because FROM takes the unit of TO */
+    /* TO first: if both ends lack a unit, the hint must add it to TO */
     const expr *to = read_end(of, r, r->to, arena, errors, made);
     const expr *from = to == NULL ? NULL : read_end(of, r, r->from, arena, errors, made);
     diags_flush(errors, stderr);
@@ -287,7 +287,7 @@ void grid_free(grid *g) {
     *g = (grid){0};
 }
 
-/* The value at the part `share` of the axis, on a logarithmic scale. The ratio of the ends may overflow. */
+/* from * (to / from)^share, even if the ratio overflows or underflows */
 static double log_value(const axis *a, double share) {
     const double ratio = a->to / a->from;
     if (isfinite(ratio) && ratio != 0.0) {

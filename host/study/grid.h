@@ -31,7 +31,7 @@ typedef struct grid {
 
 #define GRID_POINTS_MAX UINT64_C(1000000000000)
 
-/* Adds "NAME=FROM..TO:COUNT[,log]". If FROM has no unit, it has that of TO. False, with a message: text is wrong. */
+/* Adds the axis "NAME=FROM..TO:COUNT[,log]". Without a unit, FROM has that of TO. False, with a message: not added. */
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
 
@@ -52,7 +52,7 @@ void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);
 void changes_forget(const overrides *base, overrides *changes);
 
-/* False, reported on standard error, if an axis varies a value that has no effect in `base`. */
+/* False, reported on standard error, if an axis varies a value of an effect that is not selected in `base`. */
 bool changes_take_part(const grid *g, const instance *base);
 /* False, reported on standard error, if `base` sets a value that an axis varies. */
 bool changes_are_apart(const grid *g, const overrides *base);

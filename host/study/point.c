@@ -191,7 +191,7 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* Replaces each noisy output in the expression by its noisy record, but not those that other outputs contain. */
+/* Replaces each noisy output in the expression by its record, which has the noise. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;
@@ -387,7 +387,7 @@ static void meter_close(meter *m) {
     free(m->output);
 }
 
-/* Takes a sample of the present state for the series, or for the final values. */
+/* Samples the state: for the MEASURE_FINAL measures if `final`, else for all others. */
 static void meter_enter(meter *m, bool final) {
     double state[3 * IMAGE_COMPONENTS_MAX];
     const engine_kind *kind = m->sweep->kind;
@@ -497,7 +497,7 @@ bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors
 
 /* === a point ================================================================================== */
 
-#define ENDS_ALIKE 1e-9 /* a run may miss until_s by at most this part of until_s */
+#define ENDS_ALIKE 1e-9 /* tolerance of the end of a run, relative to until_s */
 
 static bool has_balance(const sweep *s) { return !s->mechanism->is_system; }
 
@@ -634,8 +634,7 @@ char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]) {
     if (shown == si) {
         return number_shortest(si, text);
     }
-    snprintf(text, NUMBER_SIZE, "%.15g",
-             number_shown(shown)); /* so that 4 in is not shown as 3.9999999999999996 in */
+    snprintf(text, NUMBER_SIZE, "%.15g", number_shown(shown)); /* 17 digits would show round-off */
     return text;
 }
 

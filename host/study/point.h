@@ -53,7 +53,7 @@ typedef struct gauge {
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
 /* `epsilon`: relative round-off of a sample. Returns NaN if there is no value, such as the period of a constant.
- * After an overflow, a period is infinite; any other result is infinite or NaN. */
+ * If a sum or difference of samples overflows, a period is infinite, not NaN. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
@@ -63,7 +63,7 @@ typedef struct measure {
     const expr *of;
 } measure;
 
-/* The measure's column has the declared unit of this symbol, divided by s^n if m->of has n primes. NULL: SI units. */
+/* The measure's column has this symbol's declared unit, divided by s for each prime of m->of. NULL: the SI unit. */
 const symbol *measure_symbol(const measure *m);
 
 typedef struct measures {
@@ -73,8 +73,8 @@ typedef struct measures {
     mechanism mechanism; /* its only outputs are the measured expressions */
 } measures;
 
-/* Reads `count` texts, or without texts takes the final state and the outputs. NULL if one is
- * wrong, reported to `errors`. `of` must outlive the result. */
+/* Reads texts[count]. If count is 0, the measures are the final values of state and outputs. Returns NULL, and reports
+ * it to `errors`, if a text is wrong. `of` must outlive the result. */
 measures *measures_new(const mechanism *of, const char *const *texts, int count, diags *errors);
 void measures_free(measures *m);
 
@@ -85,23 +85,22 @@ typedef struct point_notes {
     unsigned found;    /* findings, as bits (host/check/finding.h) */
     unsigned warned;   /* warnings, as bits */
     unsigned fails;    /* findings that make the exit status 1, as bits */
-    unsigned unlooked; /* findings that were not checked at some steps, as bits */
+    unsigned unlooked; /* findings for which some steps were not checked, as bits */
     double end_s;      /* end of the run */
 } point_notes;
 
-/* Everything in a sweep must outlive the runs, which do not change it. */
+/* The objects that a sweep points to must outlive its runs. No run changes them. */
 typedef struct sweep {
     const grid *grid;
     const mechanism *mechanism; /* if there are measures, they are its outputs */
     const measures *measures;   /* NULL if the sweep is a map */
     const scene *scene;         /* NULL for a bare mechanism */
-    const overrides *changes;   /* the changes of the command line, without the swept values */
+    const overrides *changes;   /* changes by the command line; swept values come from `grid` */
     const engine_kind *kind;
     image_settings engine;
-    double from_s; /* measure from this time on */
-    double strict; /* the value of --strict: see run_checks_fails() */
-    /* The image whose lists all points and their finer runs use. NULL: not all lists are equal (sweep_can_share()). */
-    const image *shared;
+    double from_s;       /* measure from this time on */
+    double strict;       /* the value of --strict: see run_checks_fails() */
+    const image *shared; /* all points use its operation lists; NULL: each makes its own */
 } sweep;
 
 /* The number of columns after the swept values. There is one for each measure. If the mechanism has energies, there is
@@ -111,7 +110,7 @@ int sweep_columns(const sweep *s);
 /* Returns false, with a message, if a measure is taken at the end, and a swept step does not divide until_s. */
 bool sweep_ends_are_alike(const sweep *s, double until_s);
 
-/* May all points and their finer runs use this image's lists? Varied parameters and conserved momenta change lists. */
+/* Can the runs and finer runs of all points use the operation lists of `im`? */
 bool sweep_can_share(const grid *g, const image *im);
 
 /* The declared unit after a column's name, such as " [deg]"; "" for SI, or if `of` is NULL. The caller frees it. */

@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* No shorter step is tried after PATIENCE trials in a row whose error exceeds FALLS times the least error before. */
+/* climb() ends after PATIENCE successive trials with an error above FALLS * (least error so far). */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -84,14 +84,14 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
-        if (slow && setting_is_fixed(s)) { /* in fixed point, even the price needs a run */
+        if (slow && setting_is_fixed(s)) { /* trial_cost() would need a slow run */
             c->end = own ? BROKEN_OFF : NOT_OWN;
             return;
         }
         row.cost = trial_cost(t, s, row.pace, &own);
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)));
         if (!own && setting_price_varies(s)) {
-            continue; /* fixed point or a matrix may refuse this step, but allow a shorter one */
+            continue; /* a shorter step may be possible */
         }
         if (!own || (row.price.basis == COST_NOT_KNOWN && !contacts)) {
             c->end = own ? UNPRICED : NOT_OWN;
@@ -106,7 +106,7 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         if (!row.result.ran || !row.result.usable) {
             continue;
         }
-        if (contacts) { /* the price is the number of evaluations in the run */
+        if (contacts) { /* the price is the counted evaluations per simulated second */
             const double rate = row.result.evaluations;
             row.price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, rate, rate, rate};
         }
@@ -255,7 +255,7 @@ const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]) {
     return text;
 }
 
-/* Explains the letters in `cost`, a line each: "p predicted: from the image, as a sum over its operations". */
+/* Explains the letters of the figures in `c`, one on each line. */
 static void figure_legend(FILE *out, const cost *c) {
     static const char *const says[COST_BASES] = {
 #define COST_BASIS_SAYS(id, word, says) says,
@@ -276,7 +276,7 @@ static void figure_legend(FILE *out, const cost *c) {
     }
 }
 
-/* Is this coordinate or rate left out, because it counts (reference_run.h) at no point? */
+/* Is this column a coordinate or rate that is only round-off at every point? */
 static bool is_missing(const trials *t, int column) {
     bool counts = t->what.column >= 0 || t->reference[0]->shape->column[column].unknown < 0;
     for (int p = 0; p < t->points; p++) {
@@ -354,7 +354,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char step[NUMBER_SIZE];
     char until[NUMBER_SIZE];
     const bool runs = t->image[0]->contacts > 0;
-    /* fixed point takes its ranges from a run, so the command has the run's end */
+    /* the command makes a run: with contacts to count it, in fixed point to find ranges */
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->request.board->name, s->number->name,
@@ -385,7 +385,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* Marks the first row of the front, and each later one with at most 1/factor of the last marked row's error. */
+/* Marks rows of the front. From each to the next, the error falls to 1/factor or less. Returns their number. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;
@@ -522,7 +522,7 @@ void table_print(FILE *out, const trials *t, const table *made, bool all) {
 
 /* --- for programs ------------------------------------------------------------------------------------*/
 
-/* A row becomes keys of an object in `json`. If json is NULL, it becomes a line of `csv`: the names if is_head. */
+/* Writes a row into a JSON object, or as a line of CSV if json is NULL. is_head: the line has names, not values. */
 typedef struct row_sink {
     FILE *csv;
     json *json;
@@ -698,7 +698,7 @@ static void enter_run(char *const *column, bool first, counted_run *run) {
     run->cycles_bound = first ? cycles : bound_of(run->cycles_bound, cycles);
 }
 
-/* Counts the step at the worst point, or with contacts the whole run at each point. Returns an exit status. */
+/* Counts the cost of a step, at the point with the worst error. With contacts, it counts the run of every point. */
 static int count(const trials *t, table_row *row) {
     const bool runs = t->image[0]->contacts > 0;
     const cost_layout *layout = runs ? &run_layout : &cost_step_layout;
@@ -731,7 +731,7 @@ measured_end measured_count(const trials *t, table *made, int row) {
         return MEASURED_MISSING;
     }
     int kept = 0;
-    /* the counted figures apply to other rows of the setting, too, or only to steps of the same length */
+    /* if so, the counts apply only to rows with the same step; else, to all rows of the setting */
     const bool by_pace = runs || setting_price_varies(&counted.setting);
     const deviation_pace pace = counted.pace;
     for (int i = 0; i < made->count; i++) {
