@@ -1,7 +1,7 @@
 /* solve.c: the solution for the highest derivatives in the arrangement with the least op_list_weight(). Arrangements
- * differ in scale, in the order of elimination, in the first evaluated sine, and in symbolic elimination, which removes
- * coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The other equations return to
- * normal form, which may shorten them. Cramer's rule solves the last two or three with one division. */
+ * differ in scale, in the order of elimination, in the angle that is evaluated first, and in the unknowns that are
+ * eliminated symbolically. These unknowns have a constant diagonal entry, such as a carriage's total mass. Cramer's
+ * rule solves the last two or three equations with one division. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -139,8 +139,7 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
     return best_constant;
 }
 
-/* Eliminates with the pivots of bring_pivot(). Cramer's rule solves up to three last equations. An entry of[i] that is
- * 0 at the generic state is 0 at every state, so a divisor can be identically zero only if the determinant is. */
+/* Ends with Cramer's rule for at most three equations. If a divisor is identically 0, the determinant is, too. */
 static void eliminate_general(op_list *t, int n, const poly *const *of, int *mass, int *force,
                               int *solution) {
     int rows[COORDINATES_MAX];
@@ -190,7 +189,7 @@ static void eliminate_general(op_list *t, int n, const poly *const *of, int *mas
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
  * The first term has no q and joins m_ij in the normal form. The second acts as a mass that moves only along the line
- * from the hinge to the body. The forces split in the same way, with a common factor: the pull along that line. */
+ * from the hinge to the body. The product of P_i and the first term of f is split in the same way. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
@@ -207,15 +206,15 @@ static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
 }
 
 typedef struct wave_of {
-    const poly *here;   /* P = Re(z exp(i c q)), z as above */
-    const poly *across; /* its quadrature P~ */
+    const poly *here;   /* P_j above, or the first term of f */
+    const poly *across; /* its quadrature, as P~_j above */
 } wave_of;
 
 static wave_of wave_make(algebra *a, const poly *p, const symbol *q, double c) {
     return (wave_of){p, poly_scale(a, poly_derivative(a, p, q, 0), -1.0 / c)};
 }
 
-/* Re(z_x conj(z_y)) */
+/* Returns Re(z_x conj(z_y)), which does not contain q. */
 static const poly *without_turn(algebra *a, wave_of x, wave_of y) {
     return poly_add(a, poly_mul(a, x.here, y.here), poly_mul(a, x.across, y.across));
 }
@@ -322,7 +321,7 @@ typedef struct arrangement {
     bool scaled;
     bool rescaled; /* equations are rescaled after symbolic elimination */
     bool hinged;   /* unknowns on hinges are eliminated first, in the order below */
-    int lead;      /* rank by size of the angle that is evaluated first (lower.h) */
+    int lead;      /* value of lowering.lead */
     /* unknown that is eliminated symbolically; -1: none; -2: all with a constant diagonal */
     int first;
     int order[COORDINATES_MAX]; /* order of elimination */
@@ -414,7 +413,7 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
-/* Returns c * scale without round-off if it is a multiple of 1/48: 1 costs no product, but 1.0000000000000002 does. */
+/* Returns c * scale. If only round-off separates it from a multiple of 1/48, returns that multiple. */
 static double scale_number(double c, double scale) {
     const double scaled = folding_product(c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
@@ -536,7 +535,7 @@ static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangeme
         const int k = how->order[i];
         const poly **across = w->across + w->hinges * (n + 1);
         double own;
-        bool off = true; /* has row k no term of an earlier hinge? */
+        bool off = true; /* true: no earlier hinge adds terms to row k in add_across() */
         for (int h = 0; h < w->hinges; h++) {
             off = off && poly_is_zero(w->across[h * (n + 1) + k]);
         }

@@ -10,11 +10,11 @@
 typedef struct linear_system {
     int n;
     bool symmetric;     /* true for a mass matrix, which is positive definite: no pivot vanishes */
-    const poly **mass;  /* [n * n] values replace the parameters */
+    const poly **mass;  /* [n * n] contains the values of the parameters, not their symbols */
     const poly **force; /* [n] */
     const symbol *const *unknown; /* [n] */
-    const bool *turning; /* [n] true: the unknown is an angle, whose row gets no scale of its own */
-    const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
+    const bool *turning;          /* [n] true: the unknown is an angle. It is not scaled */
+    const bool *wanted;           /* [n] the unknown's solution is needed, so its cost counts */
     /* true: only wanted solutions must be correct, so more arrangements are possible. Models with contacts need false,
      * because the contacts use the same matrix: another arrangement would change the bits of their steps. */
     bool sparing;
@@ -22,8 +22,8 @@ typedef struct linear_system {
     bool precise;
 } linear_system;
 
-/* Enters the cheapest of several arrangements into l->list. solution[n] receives operations. The caller sets `leaf`,
- * `turn` and `context` of *l. */
+/* Enters the cheapest of several arrangements into l->list. solution[n] receives the indices of the operations for
+ * the unknowns. The caller must set l->leaf, l->turn and l->context first. */
 void solve_highest(lowering *l, const linear_system *system, int *solution);
 
 #endif

@@ -19,7 +19,7 @@ typedef struct conditions {
     double *row; /* [count * columns] */
 } conditions;
 
-/* Entries this close to a whole number are rounded to it. If a pivot is smaller, the vectors count as dependent. */
+/* Entries within this distance of a whole number are rounded to it. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 static double vector_length(const double *row, int columns) {
@@ -87,7 +87,7 @@ static int null_space(const conditions *c, double zero, double *basis) {
 
 /* === symmetries =============================================================================== */
 
-/* Limits for null_space(). They are so low because terms of a millionth of the energy must still count. */
+/* Arguments `zero` of null_space(), so small that a term of a millionth of the energy still counts. */
 #define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
 #define DRAWS 50 /* attempts to find a random state at which all functions are defined */
@@ -140,7 +140,7 @@ static const poly *without_phases(algebra *a, const poly *p) {
     return sum;
 }
 
-/* Returns the power of a generalized force, or the rate of a gap, in the motion of change_by(). */
+/* Returns row[] multiplied by motion k of change_by(): the power of a force, the rate of a gap, or a momentum. */
 static const poly *power_by(const equations *e, const poly *const *row, int k) {
     const int n = e->count;
     const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);
@@ -321,7 +321,7 @@ static int find_more(finding *f, const conditions *c, bool of_both, bool conserv
         if (of_both) {
             made.stored = poly_number(f->equations->algebra, 0.0);
         }
-        if (!poly_is_zero(made.momentum)) { /* else a coordinate without kinetic energy */
+        if (!poly_is_zero(made.momentum)) { /* skips motions without kinetic energy */
             f->found->each[f->found->count++] = made;
         }
     }
@@ -355,7 +355,7 @@ symmetries *symmetries_find(const equations *e) {
     const int64_t square = (int64_t)columns * columns;
     const poly **change = algebra_room(a, columns, sizeof *change);
     const poly *const energy[] = {equations_fold(e, e->kinetic), equations_fold(e, e->stored)};
-    conditions of[] = {{.columns = columns}, {.columns = columns}}; /* of T, of V */
+    conditions of[] = {{.columns = columns}, {.columns = columns}};
     conditions of_forces = {.columns = columns};
     symmetries *found = algebra_room(a, 1, sizeof *found);
     *found = (symmetries){.each = algebra_room(a, columns, sizeof *found->each),

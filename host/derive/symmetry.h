@@ -22,10 +22,10 @@ typedef struct symmetry {
 } symmetry;
 
 typedef struct symmetries {
-    /* sorted: symmetries with a conserved momentum, other symmetries of T and V, shifts (A = 0) that only T permits */
     int count;
-    symmetry *each; /* [count] */
-    int broken;     /* number of other symmetries of T: V lacks them, and they are no shifts */
+    /* [count] first those with a conserved momentum, then other symmetries of both T and V, then shifts (A = 0) of T */
+    symmetry *each;
+    int broken; /* number of symmetries of T that V lacks and that are not shifts */
     /* values at random states confirm that no affine symmetry of T or V is missing */
     bool complete;
     bool flat; /* T has constant coefficients: every translation and rotation is affine */

@@ -69,8 +69,8 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
                               multiple != 0 ? 1.0 : fabs(cosine)};
 }
 
-/* Writes the values of all operations at the angle `turns` to value[t->count]. The list must depend on nothing else. If
- * operation i is a phase, multiple[i] is the angle's factor in it; other entries of multiple[] are unused. */
+/* Writes the values of all operations at the angle `turns` to value[t->count]. The list must not depend on other
+ * variables. If operation i is a phase, it is multiple[i] * turns plus a constant. */
 static void turn_evaluate(const op_list *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -131,7 +131,7 @@ typedef struct table_functions {
     const int *function; /* [tables] index of each table's function in the list */
 } table_functions;
 
-/* The number at knot `at`, corrected. Knots form a ring, and `cells` is a power of two. */
+/* Returns of[at] minus its estimated average error. of[cells] is periodic, and `cells` is a power of two. */
 static double corrected(const double *of, int cells, int at, int terms) {
     const int last = cells - 1;
     const double here = of[at & last];
@@ -294,7 +294,7 @@ static bool is_zero(const op_list *t, int a) {
     return op_list_is_constant(t, a, &value) && value == 0.0;
 }
 
-/* Adds coefficient * powers to the sum. A term that cancels is removed. */
+/* Adds a product to the sum. Removes products whose coefficient becomes zero. */
 static void enter(collecting *c, product_sum *sum, const unsigned char *power, int coefficient) {
     products *p = c->made;
     for (int i = 0; i < sum->count; i++) {
@@ -330,7 +330,7 @@ static product_sum single(collecting *c, int of, int coefficient) {
     return sum;
 }
 
-/* Does the sum depend only on the angles? *coefficient: the operation of its value. */
+/* Does the sum depend only on the angles? If so, *coefficient becomes the index of an operation with its value. */
 static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
     bool alone = sum.count <= 1;
     for (int i = 0; i < c->made->symbols && sum.count == 1; i++) {
@@ -759,7 +759,6 @@ static op_list *make(tabling *t, const op_list *list, image_tables form, int bit
         return NULL;
     }
     op_list *made = write_list(t, list, form, bits);
-    /* the results of the coefficients' list become the tables' exact functions */
     *exact = t->from->coefficients;
     t->from->coefficients = NULL;
     free((*exact)->result);

@@ -15,10 +15,10 @@ typedef struct refusal {
 /* Default number of cells of a table for one turn. */
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 
-/* Returns `list` with table look-ups, and in *exact a list of the tables' functions. Accelerations (or derivatives)
- * become sum_k c_k(phase) m_k. Each m_k is a product of rates, inputs and reals. Each c_k that is not constant becomes
- * a table; c_k that differ by a factor share one. All c_k must depend on one phase, a sum of turn angles times whole
- * numbers. If the list has no such form, returns NULL, and the reason in *why. */
+/* Returns `list` with table look-ups. Each acceleration (or derivative) becomes a sum of products c(phase) * m. Every m
+ * is a product of rates, inputs and reals. Every c is a constant, or a table's value times a factor. All tables have
+ * the same phase, a sum of turn angles times whole numbers. *exact receives the list that computes the tables'
+ * functions. If `list` cannot be written as such sums, returns NULL and sets *why to the reason. */
 op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
                      refusal *why);
 

@@ -31,7 +31,7 @@ static const char words_of_cpp[] =
     "reinterpret_cast requires static_cast std template this throw try typeid typename using "
     "virtual xor xor_eq";
 
-/* Objects and functions of a generated file. Local variables may have the scene's name, because it is declared last. */
+/* Objects and functions of a generated file. The scene is declared last, so local variables may have its name. */
 static const char own[] =
     "main accelerations slopes step_matrix one_step advance multi_step observe start_angle start_real "
     "start_input contacts contact_signals contact_forces contact_sets contact_table "
@@ -283,7 +283,7 @@ static void write_phases(FILE *out, const image *im, const char *angle) {
             im->angles, im->angles, angle);
 }
 
-/* The indentation fits a name as long as "ledger_levels" or "ledger_powers". */
+/* `name` must have 13 characters; otherwise, the parameters are not aligned. */
 static void write_of_angles(FILE *out, const image *im, const op_list *t, const char *name,
                             const char *result) {
     fprintf(out,
@@ -399,7 +399,7 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* wh_multi_step() does not update the data of contacts, ledgers and inputs with a rate. */
+/* wh_multi_step() supports neither contacts, nor a ledger, nor inputs with a rate. */
 static bool has_multi_step(const image *im) {
     return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
 }
@@ -573,7 +573,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     const int components = second ? im->coordinates : im->angles + im->reals;
     const int stages = wh_methods[im->settings.method].stages;
     write_banner(out, im, file);
-    /* at least four stages: with less room, gcc would spill just as many values */
+    /* at least 4 stages: gcc would spill as many values if the arrays were smaller */
     fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components,
             stages > 4 ? stages : 4);
     if (turns) {

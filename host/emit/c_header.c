@@ -45,8 +45,8 @@ typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } 
 
 static const struct {
     const char *counted; /* last word of such names as SCENE_ANGLES and SCENE_NAMES_OF_ANGLES */
-    const char *value;   /* KIND in the name of a value, such as SCENE_ANGLE_phi */
-    const char *rate;    /* KIND in the name of a rate */
+    const char *value;   /* middle word of such names as SCENE_ANGLE_phi */
+    const char *rate;    /* middle word of such names as SCENE_ANGLERATE_phi */
     const char *where;
 } lists[LISTS] = {
     [LIST_ANGLES] = {"ANGLES", "ANGLE", "ANGLERATE",
@@ -74,7 +74,7 @@ static item of_unknown(const image *im, component c) {
 }
 
 static item item_of(const image *im, list of, int i) {
-    const int k = i - im->own_outputs; /* if >= 0: value or rate of from_momentum[k / 2] */
+    const int k = i - im->own_outputs; /* if >= 0: index among the outputs recovered from momenta */
     if (of == LIST_ANGLES || of == LIST_REALS) {
         return of_unknown(im, of == LIST_ANGLES ? im->angle[i] : im->real[i]);
     }
