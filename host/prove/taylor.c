@@ -1,5 +1,5 @@
-/* taylor.c: recurrences of Taylor coefficients. With operands u and v, coefficient k of a node follows from the
- * operands' coefficients up to k, and from its own below k. */
+/* taylor.c: recurrences of Taylor coefficients. Coefficient k of a node is computed from coefficients 0 to k of
+ * its operands u and v, and from its own coefficients 0 to k - 1. */
 #include "host/prove/taylor.h"
 
 #include <stdlib.h>
@@ -107,7 +107,7 @@ const enclosure *taylor_of(const taylor *t, int i, int k) { return at(t, i, k); 
 
 static enclosure whole(int value) { return enclosure_of((double)value); }
 
-/* Entries of coefficient k. */
+/* The number of enclosures in coefficient k of a node: the value and its derivatives. */
 static int width_of(const taylor *t, int k) { return k <= t->slopes_to ? t->width : 1; }
 
 /* to = sum of u_j v_(k-j) */
@@ -141,8 +141,7 @@ static void ratio(const taylor *t, const node *n, int self, int k, enclosure *to
     dual_divide(to, at(t, n->right, 0), width_of(t, k));
 }
 
-/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and -k c_k = sum of j u_j s_(k-j). `self` is the cosine's node,
- * after the sine's. */
+/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and -k c_k = sum of j u_j s_(k-j). */
 static void waves(const taylor *t, const node *n, int self, int k) {
     enclosure *sine = at(t, self - 1, k);
     enclosure *cosine = at(t, self, k);

@@ -11,7 +11,7 @@
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
-/* Would a name be shorter than p? Not for a number, a symbol or its power, or a term with a sine or cosine. */
+/* Would a name be shorter than p? */
 static bool shortens(const poly *p) {
     double number;
     const mono *m = p->count == 1 ? p->terms[0].mono : NULL;
@@ -53,7 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the longest let whose value, times *ratio, equals p (if `whole`) or is a part of p; else NULL. */
+/* Returns the let with the longest value that, times *ratio, is p (if `whole`) or some terms of p; else NULL. */
 static const let_row *show_let(const show *s, const poly *p, bool whole, double *ratio) {
     let_row *best = NULL;
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
@@ -511,7 +511,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     free(pieces);
 }
 
-/* Returns the smallest coefficient if all others are whole multiples of it, up to 100; else 1. */
+/* Returns the smallest coefficient if dividing the others by it yields whole numbers up to 100; else 1. */
 static double common_multiple(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
@@ -596,7 +596,6 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
-/* Has p a shared parameter, and only symbols above the fraction bar? Then show_parted() can split it repeatedly. */
 static bool has_symbols_only(const poly *p) {
     bool only = true;
     for (int i = 0; i < p->count; i++) {
@@ -610,7 +609,7 @@ static bool has_symbols_only(const poly *p) {
 
 static void show_group(const show *s, const poly *p, const poly *key, bool leading);
 
-/* Prints a sum without rates and without a common factor, such as K1*(X - L1) + K2*(...). */
+/* Prints p with shared parameters factored out: K1*(X - L1) + K2*(...). */
 static void show_parted(const show *s, const poly *p, bool leading) {
     if (!show_let_parts(s, &p, &leading)) {
         return;
@@ -640,7 +639,6 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         show_group(s, without, one, false);
         return;
     }
-    /* every term contains `shared`, so no terms can be split off */
     show_sum(s, p, (wave){NULL, 0, 0}, leading);
 }
 
@@ -733,7 +731,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
 }
 
-/* The product of a term's rates and accelerations, by which terms are collected. *highest: the highest order in it. */
+/* Returns the product of a term's rates and accelerations. *highest: order of the highest derivative in the product. */
 static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     const poly *key = poly_number(a, 1.0);
     *highest = 0;

@@ -18,7 +18,7 @@ typedef struct show {
     const char *(*name)(const void *names, const symbol *sym,
                         int primes); /* NULL: the file's names */
     const void *names;
-    struct show_lets *lets; /* `let` names that are printed instead of their sums, or NULL */
+    struct show_lets *lets; /* lets whose names are printed instead of their values, or NULL */
     bool bracketed;         /* a parenthesis follows: in LaTeX, \cos a (b + c) would be ambiguous */
 } show;
 typedef struct show_lets show_lets;
@@ -41,7 +41,7 @@ show show_start(FILE *out, show_style style, algebra *a);
 void show_symbol(const show *s, const symbol *sym, int primes);
 
 /* Prints p, collected by accelerations, then rates, with factored coefficients. Zero is "0". After an overflow of the
- * algebra, now or earlier, the terms are printed as they are, because collecting and factoring need products. */
+ * algebra, prints the terms as they are. */
 void show_poly(const show *s, const poly *p);
 
 /* The product of the atoms common to all terms of p, each in its lowest power. */
@@ -49,8 +49,7 @@ const poly *show_common(algebra *a, const poly *p);
 
 /* === products ================================================================================= */
 
-/* Returns a common factor of the pieces' coefficients. For small fractions p / q, it is gcd(p) / gcd(q) or, with
- * `whole`, gcd(p) / lcm(q): then the quotients are whole numbers. Otherwise, it is the smallest coefficient or 1. */
+/* Returns a common factor of the coefficients. If `whole`, small fractions divided by it are whole numbers. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
 /* Prints the sign between two factors. */
@@ -74,8 +73,8 @@ void show_grouped(const show *s, const poly *p);
 
 /* === stops, frictions, holds and crossings, for readers ======================================= */
 
-/* Prints a heading, then a line for each contact, in the order of handling simultaneous events. Lines begin with
- * `prefix`. Prints nothing without contacts. */
+/* Prints `heading` and a line for each contact, in the order in which simultaneous events are handled. Each line begins
+ * with `prefix`. If there are no contacts, prints nothing. */
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
 
 /* Print the equations. show_text() adds the first-order form; show_latex() adds the closed form if it is short. */

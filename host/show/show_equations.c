@@ -15,8 +15,7 @@ static void show_equation(const show *s, const equations *e, int i);
 /* === show break =============================================================================== */
 /* Breaks long LaTeX formulas at signs between terms or factors, also inside groups, into rows of amsmath's aligned. */
 
-/* Points in 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number. NARROWEST:
- * least width of a broken sum. */
+/* Widths in points, in 10 pt type. LINE_WIDTH: a line of LaTeX's article, less 25 for the equation's number. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
 typedef struct span {
@@ -417,7 +416,6 @@ static void show_contacts(const show *s, const equations *e) {
 }
 
 /* === the derivation, step by step ============================================================= */
-/* Lagrange's equations for one coordinate after another, as in a derivation by hand. */
 
 /* Returns `rest` plus row i of the mass matrix times the highest derivatives. */
 static const poly *add_inertia(const equations *e, int i, const poly *rest) {
@@ -430,7 +428,7 @@ static const poly *add_inertia(const equations *e, int i, const poly *rest) {
     return rest;
 }
 
-/* The force of all statements of a kind, Q or -dF/dq', on coordinate i. */
+/* The force on coordinate i: Q (TERM_Q) or -dF/dq' (TERM_F). */
 static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
     const poly *sum = poly_number(e->algebra, 0.0);
     for (int k = 0; k < e->forces; k++) {
@@ -456,7 +454,7 @@ static void write_coordinate(const show *s, const equations *e, int i) {
     const char *equals = latex ? "} &= " : " = ";
     const char *end = latex ? " \\\\\n" : "\n";
     write_row(s, by, q, 1, equals, e->momentum[i], end);
-    /* d/dt of the momentum: `velocity` without its term -dT/dq, and the inertia */
+    /* e->velocity[i] includes -dT/dq, which is no part of d/dt(dL/dq'): cancel it */
     const poly *velocity = poly_add(a, e->velocity[i], poly_derivative(a, e->kinetic, q, 0));
     write_row(s, latex ? "  \\frac{d}{dt}\\frac{\\partial L}{\\partial " : "  d/dt(dL/d", q, 1,
               latex ? equals : ") = ", add_inertia(e, i, velocity), end);
@@ -493,8 +491,7 @@ void show_steps(FILE *out, const equations *e, show_style style) {
 
 /* === the equations of motion ================================================================== */
 
-/* Longer closed formulas for accelerations are unreadable: the mass matrix is printed instead. */
-#define READABLE_TERMS 24
+#define READABLE_TERMS 24 /* most terms in a numerator or denominator of a printed closed form */
 
 /* Writes the inertia, centrifugal and potential terms of equation i. */
 static void write_left_side(const show *s, const equations *e, int i) {
@@ -533,7 +530,6 @@ static void show_equation(const show *s, const equations *e, int i) {
     show_row_end(&row);
 }
 
-/* Writes a quantity of the records, and its unit. */
 static void write_shown(const show *s, const char *kind, const symbol *what) {
     char *unit_name = shown_unit_name(what, 0);
     fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", kind, what->name, unit_name,
@@ -541,7 +537,6 @@ static void write_shown(const show *s, const char *kind, const symbol *what) {
     free(unit_name);
 }
 
-/* Writes the active parameters or inputs: the SI values in the file's units, and the formulas. */
 static void write_values(const show *s, const equations *e, const char *kind,
                          const symbol *const *list, int count, const double *value,
                          const expr *const *given) {
@@ -644,7 +639,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divides *top and *bottom by their common factors. The factor 0.7391 keeps their terms from cancelling in `both`. */
+/* Divides *top and *bottom by their common factors. The odd scale of *bottom prevents terms from cancelling. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
@@ -766,7 +761,8 @@ void show_lets_end(show *s, const char *heading, const char *behind, const char 
     size_t length;
     int used = 0;
     FILE *out = s->out;
-    for (int i = lets->count - 1; i >= 0; i--) { /* row i marks the earlier rows that it uses */
+    for (int i = lets->count - 1; i >= 0;
+         i--) { /* backwards: writing row i marks earlier rows as used */
         lets->below = i;
         if (lets->row[i].used) {
             s->out = alloc_text(&text[i], &length);

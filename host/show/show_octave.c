@@ -8,7 +8,7 @@
 #include "host/lang/value.h"
 #include "host/show/show.h"
 
-/* A variable for a symbol or its derivative. Symbol NULL: a name that the generated file needs. */
+/* A variable of the generated file: a symbol or its derivative, or (symbol NULL) A, b or x of A x = b. */
 typedef struct variable {
     const symbol *symbol;
     int primes;

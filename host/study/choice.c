@@ -40,7 +40,7 @@ static choice_row judged(const trials *t, const choice_request *w, const table *
     judge_limit(&row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row.load_most);
     judge_limit(&row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes),
                 bound_of(&c->flash_bytes, hopeful));
-    /* if the RAM exceeds the limit without the stack, the row fails even if its stack is unknown */
+    /* a row with an unknown stack fails if its other RAM already exceeds the limit */
     const double ram = bound_of(&c->ram_bytes, hopeful);
     const bool known = is_known(&c->ram_bytes) && (is_known(&c->stack_bytes) || ram > w->ram_bytes);
     judge_limit(&row, CHOICE_RAM, w->ram_bytes, known, ram + bound_of(&c->stack_bytes, hopeful));
@@ -89,12 +89,11 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
 
 /* --- counting --------------------------------------------------------------------------------------*/
 
-#define RUN_INSTRUCTIONS 1e9 /* most instructions of a counted run: an emulator takes ten seconds */
+#define RUN_INSTRUCTIONS 1e9 /* most operations of a counted run: limits the emulator's time */
 /* Assumed price of an evaluation if no run with its number type is counted. It is low, so that such a run is chosen. */
 #define UNTRIED 1e-3
 
-/* For contacts: predicts the longest step of each uncounted run from its evaluations. each[]: the price of an
- * evaluation, by number type. If `last` is a counted row (not NULL), it updates each[]. */
+/* Predicts the longest steps of uncounted rows. each[number type]: price of an evaluation; `last` sets one. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {

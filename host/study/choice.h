@@ -19,29 +19,30 @@ typedef struct choice_request {
     table_request table; /* has the allowed error, in trial_unit(), and the rate of calls */
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
-    double ram_bytes;    /* limit of the RAM with the stack; 0: no limit */
-    bool counts; /* chosen rows will be counted, so a predicted upper bound may exceed a limit */
+    double ram_bytes;    /* limit of RAM plus stack; 0: no limit */
+    bool counts; /* chosen rows will be counted; until then, upper bounds may exceed limits */
     const char *prices; /* the source of the prices, in words */
 } choice_request;
 
 /* A row compared with the limits. */
 typedef struct choice_row {
-    int row;      /* index of the row in the table, or -1 */
-    double worst; /* cycles or instructions of the longest step, per simulated second */
-    double load;  /* computing time of the longest step per simulated time; 0: unknown */
+    int row; /* index of the row in the table, or -1 */
+    double
+        worst; /* cycles (if unknown: instructions) of the longest step, divided by the step in s */
+    double load; /* computing time of the longest step per simulated time; 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */
-    unsigned unknown; /* bits: limits without a figure to compare */
+    unsigned unknown; /* bits: limits whose figures are unknown for this row */
 } choice_row;
 
 typedef enum choice_kind {
     CHOICE_FASTEST,  /* the fewest cycles within all limits */
     CHOICE_SMALLEST, /* the least flash within all limits */
     /* Used if no row keeps all limits: */
-    CHOICE_WEAKER, /* the least error within the other limits */
-    CHOICE_DEARER, /* the fewest cycles within error, flash and RAM */
-    CHOICE_LARGER, /* the least flash within error and load */
-    CHOICE_ANY,    /* the fewest cycles within the error */
+    CHOICE_WEAKER, /* the least error; keeps all other limits */
+    CHOICE_DEARER, /* the fewest cycles; keeps the limits of error, flash and RAM */
+    CHOICE_LARGER, /* the least flash; keeps the limits of error and load */
+    CHOICE_ANY,    /* the fewest cycles; keeps the limit of the error */
     CHOICES
 } choice_kind;
 
@@ -51,8 +52,8 @@ typedef struct choice {
 
 choice choice_make(const trials *t, const table *made, const choice_request *w);
 
-/* Like choice_make(), but counts rows until every chosen row is counted. With contacts, uncounted rows are assumed to
- * take as many cycles per evaluation as the last counted row with the same number type. */
+/* Like choice_make(), but counts chosen rows and chooses again, until every chosen row is counted. With contacts, an
+ * uncounted row is assumed to take as many cycles per evaluation as the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_request *w, choice *c);
 
 /* Prints the fastest and the smallest row. If no row keeps the limits, prints higher limits that rows would keep. */

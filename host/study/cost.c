@@ -20,7 +20,7 @@ const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WOR
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
 /* Boards without counted cycles have a range of cycles per instruction. Its lower end assumes the core's largest issue
- * width. Its upper end is two to three times the 1.2 to 1.7 cycles of a Cortex-M4 (Arm's timing). */
+ * width. Its upper end is well above the 1.2 to 1.7 of a Cortex-M4 (Arm's timing). */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
@@ -46,10 +46,10 @@ const cost_board *cost_board_named(const char *name) {
 
 /* === the operations of a step, by class ======================================================= */
 
-/* Lists with more operations become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
+/* Lists of at most this many operations are inlined (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
 enum { REGISTERS = 16 };   /* number of state and stage values that FPU registers hold */
-enum { SUMS_CARRIED = 9 }; /* additions to compensate one real, if the step is one matrix */
+enum { SUMS_CARRIED = 9 }; /* additions per compensated real in a step by a matrix */
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
     c->run[class] += run;
@@ -73,12 +73,11 @@ static cost_class class_of(const op *o) {
 
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
-/* The number of times that a step evaluates an operation of this depth_of(). In an inlined list, compilers evaluate an
- * operation only once for all stages at which it has the same value. */
+/* How often a step evaluates an operation. If inlined, once for all stages that give it the same value. */
 typedef struct times {
-    double stages; /* of depth 2 */
-    double places; /* of depth 1 */
-    double once;   /* of depth 0 */
+    double stages; /* depth_of() is 2 */
+    double places; /* depth_of() is 1 */
+    double once;   /* depth_of() is 0 */
 } times;
 
 /* 0: operation i has the same value at all stages. 1: it depends on positions. 2: it depends on rates, or is a call. */
@@ -348,7 +347,7 @@ static const cost_row *row_of(const cost_board *board, cost_number number, cost_
     return NULL;
 }
 
-/* The predicted mean of a quantity. *worst: its value in the longest step. */
+/* Predicts a cost: returns its mean over the steps, and sets *worst to that of the longest step. */
 static cost_figure sum_of(const cost_row *row, const cost_counts *c, cost_figure *worst,
                           const char **why) {
     double sum = 0.0;
@@ -390,7 +389,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number != COST_FIXED && !cost_takes_method(im)) {
         return (cost){.why = "this method is not possible for this scene"};
     }
-    if (im->contacts > 0) { /* state_bytes is unknown, too: the compiler lays out contacts */
+    if (im->contacts > 0) { /* state_bytes is unknown, too */
         return (cost){.why = "the cost of contacts depends on the motion, so whirl must count it "
                              "in a run"};
     }
