@@ -15,7 +15,7 @@ typedef struct named {
     bool is_placeholder; /* used but not declared; reported */
     bool is_open;        /* the parser is reading its declaration */
     int mark;            /* number of the last walk that visited the symbol */
-    struct named *rate;  /* let: its time derivative, if an expression has named it */
+    struct named *rate;  /* time derivative of a let; NULL until an expression uses it */
     struct named *next;  /* next entry in the same slot */
 } named;
 
@@ -26,7 +26,7 @@ names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
 /* Adds an entry. The name must be new. */
 named *names_add(names *all, const char *text, size_t length);
-/* Adds a name that is not declared, and reported: this prevents a second report. */
+/* Adds an undeclared name that has been reported, so that it is not reported again. */
 void names_add_placeholder(names *all, const token *name);
 /* Offers names to the search: those outside effects, and those of effect `effect_index` (-1: none, -2: all effects). */
 void names_offer(const names *all, int effect_index, nearest *search);
@@ -38,17 +38,17 @@ typedef enum expr_context {
     CONTEXT_CONSTANT, /* parameter, input, set, start, step: numbers and parameters */
     CONTEXT_FORCE,    /* T, V, F, Q: up to first derivatives of coordinates */
     CONTEXT_EQUATION, /* equations of a state system: derivatives of any order */
-    CONTEXT_GAP,      /* the quantity of stops and holds: coordinates, no rates */
-    CONTEXT_EVENT,    /* other parts of stop, friction, hold, when: up to first derivatives */
-    CONTEXT_LET,      /* let: any name; each use of the let is checked */
-    CONTEXT_OUTPUT    /* output: also second derivatives and earlier outputs */
+    CONTEXT_GAP,      /* the quantity that a stop or a hold limits: no derivatives */
+    CONTEXT_EVENT,    /* other expressions of stop, friction, hold, when: up to first derivatives */
+    CONTEXT_LET,      /* let: up to second derivatives of coordinates */
+    CONTEXT_OUTPUT    /* output: up to second derivatives of coordinates, and earlier outputs */
 } expr_context;
 
 /* The current mechanism. */
 typedef struct builder {
     mechanism *made;
-    place energy_at[3]; /* first `T =`, `V =`, `F =`; line 0 without one */
-    place *force_at;    /* [COORDINATES_MAX] first `Q(c) =` */
+    place energy_at[3]; /* places of the first `T =`, `V =` and `F =`; line 0 if there is none */
+    place *force_at;    /* [COORDINATES_MAX] place of the first `Q(c) =` for each coordinate c */
     int equation_count;
     bool has_energies;  /* has a coordinate, T, V, F or Q */
     bool has_equations; /* has a state or an equation */
@@ -61,13 +61,13 @@ typedef struct builder {
 typedef struct draft {
     scene *made;
     bool has_content; /* has a statement other than `use` */
-    place step_at;    /* line 0: no step yet */
+    place step_at;    /* place of the `step` statement; line 0 if there is none */
     place until_at;
 } draft;
 
 /* A scene's text, read after all mechanisms are known. */
 typedef struct pending_scene {
-    lexer from; /* the lexer, after `next` */
+    lexer from; /* reads the text after `next` */
     token next; /* the token after the word `scene` */
     place at;
     builder *inside; /* the enclosing mechanism, or NULL */
@@ -76,21 +76,21 @@ typedef struct pending_scene {
 typedef struct parser {
     lexer lexer;
     token token;     /* the current token */
-    int parentheses; /* number of open parentheses, inside which lines continue */
+    int parentheses; /* number of open parentheses; line breaks inside them are skipped */
     int nesting;
     place statement_at; /* place of the current statement */
     diags *diags;
     struct arena *arena;
     expr_context context;
-    unit_scale number_unit; /* the unit after the last number, and its text */
+    unit_scale number_unit; /* the last unit that followed a number */
     const char *number_unit_text;
     const char *const *around; /* see override_parse() */
-    const char *condition_at;  /* start of a comparison: a '(' here may enclose a condition */
+    const char *condition_at;  /* start of the current comparison in the text */
     int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* names of every effect are allowed, as in a scene */
-    bool bare_units;           /* a number's unit needs no brackets and ends the text */
-    names *names;              /* those of the mechanism; NULL: no names allowed */
-    builder *builder;          /* the current mechanism, or that of the current scene, or NULL */
+    bool bare_units;           /* units may stand without brackets, as on the command line */
+    names *names;              /* names of the mechanism, or NULL */
+    builder *builder;          /* the mechanism of the current statement or scene, or NULL */
     draft *draft;              /* the current scene, or NULL */
     builder **builders;
     int builder_count;
@@ -124,12 +124,12 @@ const char *parser_nearest(const parser *in, const nearest *search, const char *
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
 void parser_skip_newlines(parser *in); /* skip empty lines only */
-/* Skips to a block's next statement. False if '}' (*closed), a word with the rule `rule` or the text's end is first. */
+/* Skips empty lines. Returns true if a statement of the block follows. Returns false at the end of the text, at '}'
+ * (sets *closed), or at a word that has `rule` (ENDS_EFFECT, ...), because the block's '}' is missing before it. */
 bool parser_in_block(parser *in, unsigned rule, bool *closed);
 /* Returns the hint for a missing operator before the current name, number or '('. */
 const char *parser_operator_hint(const parser *in);
 bool parser_end_statement(parser *in, const char *what);
-/* Appends `made` to a list of the mechanism. The symbol's index is its number in the list. */
 void parser_add_symbol(parser *in, const symbol ***list, int *count, symbol *made);
 char *parser_copy_text(parser *in, const token *each);
 /* Reads an optional text in quotes; returns "" if there is none. */

@@ -42,7 +42,7 @@ static bool read_with(parser *in, const statement_word *word) {
     return true;
 }
 
-/* Reads a name. *found is NULL if it is unknown (reported). */
+/* Reads a name. If the name is unknown, reports this and sets *found to NULL. */
 static bool scene_take_symbol(parser *in, const statement_word *word, token *name,
                               const symbol **found) {
     if (in->token.kind != TOKEN_NAME) {
@@ -135,7 +135,7 @@ static bool is_number(const expr *tree) {
     return tree->op == EXPR_NUMBER;
 }
 
-/* In -5 .. 5 [m], the number without a unit gets the unit of the other number. */
+/* If only `high` has a unit, as in -5 .. 5 [m], gives this unit to `low`. */
 static const expr *with_unit(parser *in, const expr *low, const expr *high) {
     if (!is_number(low) || !is_number(high) || low->uses != 0 || (high->uses & USES_UNIT) == 0) {
         return low;
@@ -204,7 +204,7 @@ static bool read_range(parser *in, const statement_word *word) {
         return true;
     }
     static const char *const nothing[] = {"", ""};
-    in->around = nothing; /* the hint about a missing unit shows one end only, without a name */
+    in->around = nothing; /* the hint about a missing unit then omits "NAME = " */
     low = with_unit(in, low, high);
     if (check_value(in, low_at, low, what, &name) && check_value(in, high_at, high, what, &name)) {
         const range_statement one = {what, name.primes, low, high, name.at};

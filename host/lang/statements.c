@@ -146,8 +146,7 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === checks of a complete mechanism =========================================================== */
 
-/* If `in` is NULL, `tree` is a side of an equation: raises each state's order to that of its highest derivative.
- * Otherwise `tree` is an output: reports derivatives above a state's order. EXPR_HEIGHT_MAX bounds the recursion. */
+/* If `in` is NULL, raises each state's order to its highest derivative in `tree`. Otherwise, reports higher ones. */
 static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;
@@ -205,7 +204,7 @@ static void finish_system(parser *in, builder *done) {
 
 static void finish_mechanism(parser *in, builder *done) {
     mechanism *made = done->made;
-    bool has_T = false; /* a T in any effect counts: host/derive checks each scene */
+    bool has_T = false;
     for (int i = 0; i < made->term_count; i++) {
         has_T = has_T || made->terms[i].kind == TERM_T;
     }
@@ -341,7 +340,7 @@ static bool read_mechanism(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the mechanism's title");
 }
 
-/* Skips a scene, and stores its place: a scene may name later effects. */
+/* Skips a scene, and stores its place for read_noted_scene(). */
 static bool note_scene(parser *in, const statement_word *word) {
     (void)word;
     if (in->pending_count == SCENES_MAX) {

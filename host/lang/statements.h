@@ -17,7 +17,7 @@ statement_reader read_noise;                             /* declare.c */
 /* Reports that the contact cannot be combined with state and equation. */
 void contact_on_system(parser *in, const contact_statement *each);
 
-/* True if one of these effects is never active without the other. -1 is the mechanism itself, always active. */
+/* True if both are the same effect, or if one is the mechanism itself (-1), which is always active. */
 static inline bool always_meet(int one, int other) { return one == other || one < 0 || other < 0; }
 
 /* Reads the text. Scenes are only noted: they are read last, because they may name later effects. */

@@ -20,7 +20,7 @@ typedef struct unit_entry {
     quantity_id of;
 } unit_entry;
 
-/* The international agreement of 1959 defines pound, inch and foot. Standard gravity is 9.80665 m/s^2. */
+/* Pound, inch and foot are those of the agreement of 1959. A pound-force is a pound times 9.80665 m/s^2. */
 #define POUND_KG 0.45359237
 #define POUND_FORCE_N 4.4482216152605
 
@@ -379,7 +379,7 @@ const char *unit_name(int index) { return index < UNIT_COUNT ? units[index].name
 
 char *unit_in_si(int index, double *value, char *buffer, size_t size) {
     *value = units[index].scale / units[index].divisor;
-    if (units[index].of == QUANTITY_FREQUENCY) { /* rad/s, because users do not expect rpm in Hz */
+    if (units[index].of == QUANTITY_FREQUENCY) { /* in rad/s: the table's unit would be Hz */
         return dim_unit(dim_of_quantity(QUANTITY_FREQUENCY), buffer, size);
     }
     for (int i = 0; i < UNIT_COUNT; i++) {

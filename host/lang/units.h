@@ -78,7 +78,7 @@ char *dim_text(dimension dim, char *buffer, size_t size);
 char *dim_symbols(dimension dim, char *buffer, size_t size);
 /* Writes the usual unit, such as "N*m" or "rad/s", or base units if there is no usual one. */
 char *dim_unit(dimension dim, char *buffer, size_t size);
-/* Writes the unit in records and balances, such as "N" or "N*m*s", or base units if there is no usual one. */
+/* Writes the unit that records and balances show, such as "N" or "N*m*s", or base units if there is no usual one. */
 char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 

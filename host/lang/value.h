@@ -6,8 +6,8 @@
 
 /* === units of displayed numbers: the declared unit, or SI ===================================== */
 
-/* The display unit of a symbol: the declared unit, or SI if none is declared. It is also the scale of the unit of the
- * symbol's derivatives, which is "per second" for each prime ([deg]: deg/s, deg/s^2). */
+/* Returns the display unit of a symbol: the declared unit, or SI if none is declared. A derivative is displayed in this
+ * unit per second for each prime: deg/s and deg/s^2 if the unit is deg. */
 unit_scale shown_unit(const symbol *s);
 
 /* Returns the name of the display unit, such as "deg/s", "kg*m/s^2", "rad" or "1". The caller frees it. */
@@ -29,7 +29,7 @@ char *shown_assignment(const symbol *s, int primes, const char *number);
 /* Writes the SI unit of a dimension to text[size], such as "rad", "m/s", "kg*m^2/s^2" or "1". Returns `text`. */
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);
 
-/* The parameters of one run, evaluated on demand: a `set` may name a parameter declared later. */
+/* The parameters of one run. Each is evaluated when it is first used, because a `set` may use a later parameter. */
 typedef struct valuation {
     const mechanism *of;
     const expr **parameter_expr;  /* [parameter_count] */
@@ -39,9 +39,9 @@ typedef struct valuation {
     double *let;                  /* [let_count] */
     bool *let_known;              /* [let_count] */
     const double *input;          /* [input_count] SI; NULL: expressions may contain no input */
-    double *const *state; /* [coordinate_count][primes <= primes_most] SI; NULL: no coordinates */
+    double *const *state;         /* [coordinate_count][0 .. primes_most] SI, or NULL */
     int primes_most;
-    int depth; /* sum of the heights of all parameters' expressions that are being evaluated */
+    int depth; /* current depth of the recursion through the parameters' expressions */
     diags *diags;
 } valuation;
 
@@ -50,7 +50,7 @@ valuation valuation_new(const mechanism *of, struct arena *arena, diags *diags);
 /* Returns the SI value. `known` may be NULL if the tree has only numbers and operators. */
 double expr_value(const expr *tree, valuation *known);
 
-/* As expr_value(), but a value that is not finite is reported at `at`, as `what`, and becomes 0. */
+/* As expr_value(). If the value is not finite, reports this at `at` under the name `what`, and returns 0. */
 double finite_value(const expr *tree, valuation *known, place at, const char *what);
 
 /* Returns the value of parameter `index`. If it is not finite, or depends on itself, this is reported once. */

@@ -133,7 +133,7 @@ _Static_assert(sizeof rows / sizeof rows[0] == WORD_COUNT, "a row for each word"
 const statement_word *word_row(word_id id) { return &rows[id]; }
 
 bool word_is(word_id id, const char *text, size_t length) {
-    /* the comparison of first letters decides for most words, which is fast */
+    /* the first letter excludes most words, which saves calls of strlen() */
     const char *word = rows[id].text;
     return length > 0 && word[0] == text[0] && strlen(word) == length &&
            memcmp(word, text, length) == 0;

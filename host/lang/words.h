@@ -24,8 +24,8 @@ typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
 
 const char *symbol_kind_words(symbol_kind kind);
 
-/* Terms: the kind, its name, another name for messages about an undefined value, and the rule for its
- * dimension. The rule is "" if the dimension depends on a coordinate (Q) or on the equation's other side (EQUATION). */
+/* Terms: the kind, its name, its name in messages about undefined values, and the message about a wrong dimension.
+ * This message is "" for Q and EQUATION, because they have no fixed dimension. */
 #define TERM_KIND_ROWS(X) \
     X(T, "the kinetic energy", "the kinetic energy", \
       "kinetic energy T must be an energy [kg*m^2/s^2]") \
@@ -76,24 +76,24 @@ enum {
 enum {
     RESERVED = 1,       /* not available as a user's name */
     DECLARES = 2,       /* declares the name after it */
-    ENDS_EFFECT = 4,    /* at the start of a line in an effect: the effect's '}' is missing */
-    ENDS_SCENE = 8,     /* the same, for a scene */
-    ENDS_WHEN = 16,     /* the same, for a `when` */
-    INTO_EFFECT = 32,   /* in a scene, the hint is to put the statement into an effect */
+    ENDS_EFFECT = 4,    /* if it begins a line in an effect, the effect's '}' is missing */
+    ENDS_SCENE = 8,     /* as ENDS_EFFECT, for a scene */
+    ENDS_WHEN = 16,     /* as ENDS_EFFECT, for a `when` */
+    INTO_EFFECT = 32,   /* an error in a scene, with the hint to put the statement into an effect */
     BY_ENERGIES = 64,   /* only for mechanisms given by their energies */
     BY_EQUATIONS = 128, /* only for systems given by their equations */
-    LISTS = 256         /* ITEM {, ITEM}: the reader reads one item; a line may end after a comma */
+    LISTS = 256         /* takes items separated by commas; the reader reads one item */
 };
 #define FILE_FORM "a file begins with: mechanism NAME \"title\""
 #define ENDS_ALL (ENDS_EFFECT | ENDS_SCENE | ENDS_WHEN)
 
 /* Statements of files, mechanisms and effects. A misspelt word is compared with them in this order.
  *
- *   word    its spelling. WORD_COORDINATE is the constant of `coordinate`.
+ *   word    the id (COORDINATE makes the constant WORD_COORDINATE), and the spelling.
  *   stands  the blocks that allow the statement.
  *   rules   other rules, from the list above.
  *   reader  the function that reads the part after the word (statements.h).
- *   kind    the kind of the result: symbol_kind, term_kind or contact_kind, as the reader expects.
+ *   kind    the symbol_kind, term_kind or contact_kind that the statement makes, or 0.
  *   form    the usual form, for hints. */
 #define BODY_WORD_ROWS(X) \
     X(MECHANISM, "mechanism", IN_FILE, RESERVED | ENDS_ALL, read_mechanism, 0, \

@@ -51,7 +51,7 @@ static bool keep_text(light *l, const char *from, const char *end) {
     return true;
 }
 
-/* Finds the fields' values. Returns false unless the lines are the fields, in order, in printable characters. */
+/* Finds the fields' values. Returns false if a field is missing, is out of order or has unprintable characters. */
 static bool split(light *l, size_t body) {
     memcpy(l->lines, l->text, l->length + 1);
     char *at = l->lines + BEGIN + 1;
