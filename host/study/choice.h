@@ -26,10 +26,9 @@ typedef struct choice_request {
 
 /* A row compared with the limits. */
 typedef struct choice_row {
-    int row; /* index of the row in the table, or -1 */
-    double
-        worst; /* cycles (if unknown: instructions) of the longest step, divided by the step in s */
-    double load; /* computing time of the longest step per simulated time; 0: unknown */
+    int row;      /* index of the row in the table, or -1 */
+    double worst; /* cycles (if unknown: instructions) of the longest step / step in s */
+    double load;  /* computing time of the longest step per simulated time; 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */
     unsigned unknown; /* bits: limits whose figures are unknown for this row */
