@@ -8,11 +8,11 @@
 #include "host/study/trial.h"
 
 /* === the table ================================================================================ */
-/* The unit of a row's price, the cost of a simulated second. Rows are sorted by price. */
+/* The unit of a price. A row's price is the cost of one simulated second. */
 typedef enum table_unit {
     PRICE_CYCLES,
     PRICE_INSTRUCTIONS, /* on boards without counted cycles */
-    PRICE_EVALUATIONS   /* with contacts: evaluations of the accelerations, counted in the run */
+    PRICE_EVALUATIONS   /* if the scene has contacts: evaluations of accelerations in the trial */
 } table_unit;
 extern const char *const table_unit_words[]; /* "cycles", ... */
 
@@ -23,9 +23,9 @@ typedef struct table_price {
     double least, most;
 } table_price;
 
-/* If the scene has contacts, a whole run is counted at each point of the trials. These are figures of all runs. */
+/* If the scene has contacts, Whirl counts whole runs: one at each point of the trials. */
 typedef struct counted_run {
-    double steps; /* number of counted steps at all points together; 0: no whole run was counted */
+    double steps;              /* number of steps of all counted runs; 0: no run was counted */
     double instructions_bound; /* declared bound for a step (docs/dev/events.md); 0: unknown */
     double cycles_bound;
 } counted_run;
@@ -56,17 +56,17 @@ typedef struct table {
 typedef struct table_request {
     double operations;  /* limit on the operations of all trials */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
-    double error;       /* steps get shorter until the error is half of this; 0: while it falls */
-    double rate_Hz;   /* rate of calls, each of which takes a whole number of steps; 0: any step */
-    uint64_t periods; /* number of periods (1/rate_Hz) in a record's spacing; 1 without a rate */
+    double error;       /* requested error; a setting's trials end at half of it; 0: no request */
+    double rate_Hz;     /* rate of calls; each makes a whole number of steps; 0: no request */
+    uint64_t periods;   /* periods, 1/rate_Hz, from one record to the next; 1 without a rate */
     int workers;
     bool shows; /* progress on standard error */
 } table_request;
 
 /* 1, 2, 5, 10, 20, 50, ... for i = 0, 1, 2, ... */
 uint64_t table_decade(int i);
-/* Sets *pace for trial number `rung`, from 0 on. Without a rate, a trial's step is 2 to 2.5 times shorter than that of
- * the trial before. With a rate, the trials have 1, ..., 10, 12, 15, 20, ... steps a period. False: no such trial. */
+/* Sets *pace for trial number `rung`, from 0 on. Each trial has shorter steps than the one before. Returns false if
+ * there is no such trial. */
 bool table_pace(const table_request *w, int rung, deviation_pace *pace);
 /* The number of the row's steps in a period, 1/rate_Hz; 0 without a rate. */
 uint64_t table_substeps(const table_request *w, const table_row *row);
@@ -103,9 +103,9 @@ void table_json(FILE *out, const trials *t, const table *made, int status);
 void table_json_begin(json *j, const char *command, const trials *t);
 void table_json_row(json *j, const trials *t, const table_row *row);
 
-/* Command lines that repeat a row: `whirl run ...` at a point of the ranges, and `whirl derive ... --as c` with the
- * scene's own values. The caller frees them. */
+/* The command `whirl run ...` that repeats a trial at a point of the ranges. The caller frees it. */
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point);
+/* The command `whirl derive ... --as c` with this setting and step, and the scene's own values. The caller frees it. */
 char *table_derive_line(const trials *t, const setting *s, deviation_pace pace);
 /* The command that counts this row's step, in Whirl's source tree: `sh mk/price/measure_one.sh ...`. */
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point);
@@ -118,13 +118,13 @@ typedef enum measured_end {
     MEASURED_MISSING /* a tool is missing */
 } measured_end;
 
-/* Returns why steps cannot be counted on this board, perhaps in `text`; or compiles common files, and returns NULL. */
+/* Compiles the files that all counts need. Returns NULL, or why counting is impossible (may point into `text`). */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
-/* Counts the cost of the row's step, or with contacts of its whole run. Takes seconds. Enters the cost in all rows to
- * which it applies, or removes them if the code cannot be built, linked or run. Sorts the table again. */
+/* Counts the cost of the row's step, or of its whole run if the scene has contacts. Enters the cost in all rows to
+ * which it applies. Removes these rows if their code cannot be built, linked or run. Sorts the table again. */
 measured_end measured_count(const trials *t, table *made, int row);
-/* Counts until no row of the front is uncounted. Does nothing with contacts. `shows`: progress on standard error. */
+/* Counts all rows of the front. Does nothing if the scene has contacts. `shows`: progress on standard error. */
 measured_end measured_front(const trials *t, table *made, bool shows);
 
 #endif

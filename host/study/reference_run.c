@@ -32,7 +32,6 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
-/* Makes one step and counts its evaluations, whose number varies with contacts. A step by a matrix counts as one. */
 static bool take_step(const engine_kind *kind, void *run, const image *im, deviation *d) {
     uint64_t declared;
     const uint64_t before = kind->evaluations(run, &declared);
@@ -71,25 +70,21 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 
 /* === the reference ============================================================================ */
 
-/* If no steps are requested, a reference has this METHOD. Its first step is FINER times shorter than the scene's. It is
- * halved until the last two runs agree within ENOUGH of each column's largest value, or it is FINEST times shorter than
- * the scene's. If the trusted time is too short, but the last halving doubled it, the limit is LAST. */
+/* The method and the steps of a reference if none are requested. */
 #define METHOD WH_NYSTROEM5
-#define FINER 4.0
-#define FINEST 16.0
-#define LAST 256.0
-#define ENOUGH 1e-11
-/* Records are trusted while the two runs differ by less than this part of each column's largest value. A larger
- * difference is round-off that the motion has amplified. */
+#define FINER 4.0    /* the first step is this many times shorter than the scene's */
+#define FINEST 16.0  /* the last step is at most this many times shorter than the scene's */
+#define LAST 256.0   /* replaces FINEST while each halving of the step doubles the trusted time */
+#define ENOUGH 1e-11 /* halving ends if the runs differ by this part of each `largest` or less */
+/* A record is trusted if the two runs differ by at most this part of each column's largest value. */
 #define LIMIT 1e-9
-/* A column is known if the two runs agree until its magnitude has reached this part of the column's largest value. */
+/* A column is known if the two runs still agree when its magnitude reaches this part of its largest value. */
 #define KNOWN_BY 1e-6
-/* An unknown column is only round-off if its largest value is this many times larger in float than in double. Round-off
- * is 2^29 times larger in float, but a motion has nearly the same magnitude in both. */
+/* An unknown column is only round-off if its largest value is this many times larger in float than in double. */
 #define ROUGHER 0x1p15
-/* Both runs have the same round-off of constants and of the start: this part of a column's largest value. */
+/* Least `off` of a column, as a part of its `largest`. Both runs share the round-off of constants and of the start. */
 #define SHARED (16.0 * DBL_EPSILON)
-#define EVENTS 3.0 /* with contacts, a step has about this many times as many evaluations */
+#define EVENTS 3.0 /* contacts multiply the evaluations of a step by about this factor */
 
 /* --- two runs and their agreement ------------------------------------------------------------------*/
 
@@ -142,7 +137,7 @@ static double row_off(const reference *r, const computed *other, int record, int
     return isfinite(off) ? off : (double)INFINITY;
 }
 
-/* Sets a column's largest value and difference in the records up to `until`. Is the column known (KNOWN_BY)? */
+/* Sets a column's `largest` and `off` over the records up to `until`. Returns whether the column is known. */
 static bool measure(reference *r, const computed *other, int until, int column) {
     const double enough = KNOWN_BY * largest_of(r, r->row, until, column);
     reference_column *c = &r->column[column];
@@ -158,7 +153,7 @@ static bool measure(reference *r, const computed *other, int until, int column) 
     return known;
 }
 
-/* Measures all columns, and decides which ones count. *rough: a float run with the steps of `other`, made if needed. */
+/* Measures all columns, and decides which ones count. If needed, computes *rough, the run in float. */
 static void weigh(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   computed *rough) {
     const int until = r->records < 0 ? 0 : r->records;
@@ -175,7 +170,7 @@ static void weigh(reference *r, const reference_request *w, uint64_t steps, cons
     }
 }
 
-/* Decides which columns count, and up to which record the two runs agree. `other` has `steps` steps a record. */
+/* Decides which columns count, and up to which record the two runs agree. */
 static void judge(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   int reached) {
     computed rough = {NULL, 0};
@@ -208,7 +203,7 @@ static bool moves(const reference *r) {
 
 /* --- the steps ---------------------------------------------------------------------------------------*/
 
-/* The even number of steps in a record's spacing: `finer` times the scene's number, if w->operations allows so many. */
+/* The even number of steps from one record to the next: `finer` times the scene's, or what w->operations allows. */
 static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =

@@ -1,7 +1,6 @@
 /* reference_run.h: an accurate motion, with which priced runs are compared at evenly spaced records. It is computed in
- * double with compensated sums and short steps. A second run has twice the step. The difference of the two estimates
- * the reference's error, and the reference is trusted until it exceeds a limit. Both share operations, sines and
- * event search, so their difference does not show errors of these. */
+ * double with compensated sums and short steps. A second run has twice the step. The difference of the two runs
+ * estimates the reference's error, except errors of operations, sines and event search: both runs have the same. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -14,7 +13,7 @@ typedef struct reference_steps {
     uint64_t steps; /* number of steps from one record to the next; even */
     wh_method method;
     int order;    /* order of the method's error */
-    double limit; /* trusted while the runs differ by at most this part of a column's `largest` */
+    double limit; /* a record is trusted if the runs differ by at most this part of `largest` */
 } reference_steps;
 
 typedef struct reference_request {
@@ -39,7 +38,7 @@ typedef struct reference {
     int records;              /* number of trusted records after the start */
     double *row;              /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
-    double limit;             /* the limit that was used; see reference_steps */
+    double limit;             /* the requested reference_steps.limit, or the default */
     char *how;                /* the two runs, in words */
     char *why;                /* why trust ends early, or why there is no reference; or NULL */
     bool still;               /* no quantity moves, so there is no reference */
@@ -66,13 +65,13 @@ typedef struct deviation_pace {
 } deviation_pace;
 
 typedef struct deviation_of_what {
-    int column;     /* compared in its unit; -1: all columns that count, relative to `largest` */
+    int column;     /* compared in its unit; -1: all that count, each as a part of its `largest` */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 
 typedef struct deviation {
     bool usable;  /* the run reached its end without saturation, and no error exceeded give_up */
-    double error; /* largest error of all records; if unusable, of the records before the stop */
+    double error; /* largest error of all records; if unusable, of those up to the stop */
     int column;   /* the column with the largest error */
     double known; /* the reference's error in that column, in the unit of `error` */
     double evaluations; /* evaluations of the accelerations or the matrix, per simulated second */

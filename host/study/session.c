@@ -91,7 +91,7 @@ static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s)
 
 /* --- the rows that are there -------------------------------------------------------------------*/
 
-/* Does the line have the row's swept fields, and then s->measures fields that are numbers or empty? */
+/* Is `line` a valid row with number `row`? *failed: its measures are empty. */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,
                    bool *failed) {
     char *swept = NULL;
@@ -156,7 +156,7 @@ static int go_on(resumable_csv *sh, const resumable_csv_settings *s, off_t size)
     if (code != EXIT_DONE) {
         return code;
     }
-    /* Old rows go first: if the program is killed, they must not stand beside the new fingerprint. */
+    /* old rows must not stand beside the new fingerprint, even if the program is killed */
     if (whole == 0 && ftruncate(fileno(sh->out), 0) != 0) {
         return cannot_write(s->path);
     }

@@ -12,9 +12,9 @@
 /* === a CSV file that is continued ============================================================= */
 /* The CSV file of a sweep, which a later run of the same sweep can continue.
  *
- * FILE.sweep, next to FILE, has the settings that determine every byte of FILE, a line each. Lines "noted: WORD" at its
- * end have the findings of existing rows. A run continues a FILE with the same settings, header and swept values, and
- * drops an incomplete last line. It refuses any other FILE. A sweep locks FILE while it writes. */
+ * FILE.sweep, next to FILE, lists the settings that determine every byte of FILE. After them, lines "noted: WORD" list
+ * the findings of existing rows. A sweep continues FILE if settings, header and swept values are the same, and drops an
+ * incomplete last line. It refuses any other FILE. A sweep locks FILE while it writes. */
 
 typedef struct resumable_csv {
     FILE *out;
@@ -63,7 +63,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 
 /* === running the points ======================================================================= */
 
-/* Draws the progress line again. `done` of `end` points are done; `elapsed_s` seconds ago, `from` were done. */
+/* Draws the progress line again. Of `end` points, `from` were done `elapsed_s` ago, and `done` are done now. */
 void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s);
 
 typedef struct session_settings {

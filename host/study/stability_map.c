@@ -43,8 +43,7 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* The runs of a row of the map. If the step varies along the row, all runs use the ranges of the first run, which has
- * the shortest step. A run with longer steps may have few samples or diverge, so its own ranges are not used. */
+/* The runs of a row of the map. If the step varies along it, all use the ranges of the first (the shortest step). */
 typedef struct row_runs {
     const map_request *request;
     stability_map *map;
@@ -62,7 +61,6 @@ static bool is_highest(const step_doubling *t, int k) {
     return highest;
 }
 
-/* Did the run or its finer run fail, or does the error of a highest derivative exceed MAP_BOUND times its range? */
 static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
     for (int k = 1; k < h->of->columns; k++) {
