@@ -115,11 +115,11 @@ typedef struct op {
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
     const int *turns; /* OP_PHASE, OP_CELL: [angles] integer factors of the angles, or NULL */
-    /* OP_PHASE in records only: [angles] fractional factors of angles with all their turns, or NULL */
+    /* OP_PHASE: [angles] fractional factors of unwrapped angles, or NULL. Only lists for records have them. */
     const double *parts;
 } op;
 
-/* The tables of core/step/table.h. Coefficients are not scaled: y is the distance from a cell's middle, in cells. */
+/* The tables of core/step/table.h, without its scaling of b, c and d: y is in cells, from the cell's middle. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -150,13 +150,13 @@ void op_list_free(op_list *t);
 int op_list_constant(op_list *t, double value);
 int op_list_leaf(op_list *t, op_code code, int which);
 int op_list_noise(op_list *t, uint32_t seed);
-/* Enters a phase: the sum of turn angles times multiple[t->angles] (may be NULL), the offset, and the operation
- * `radians` (-1: none). Integer multiples apply to angles modulo a turn, others to angles with all turns. */
+/* Enters the phase `offset_rad` + sum of multiple[k] * turn angle k + value of operation `radians` (-1: none), radians.
+ * multiple[t->angles] may be NULL. Its whole numbers apply to angles modulo a turn, others to unwrapped angles. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
 /* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);
 void op_list_tables_new(op_list *t, int count, int bits, int terms); /* all entries are zero */
-/* Enters the lookup of a phase's cell. The phase is the sum of turns[k] times angle k. */
+/* Enters an OP_CELL: the table cell in which the sum of turns[k] * turn angle k lies. */
 int op_list_cell(op_list *t, const int *turns);
 int op_list_look_up(op_list *t, int cell, int which);
 int op_list_unary(op_list *t, op_code code, int a);
@@ -164,7 +164,7 @@ int op_list_add(op_list *t, int a, int b);
 int op_list_sub(op_list *t, int a, int b);
 int op_list_mul(op_list *t, int a, int b);
 int op_list_div(op_list *t, int a, int b);
-/* Enters a function of operations a and b (or -1), as its own operation or as a call. */
+/* Enters function(a, b), or function(a) if b is -1. */
 int op_list_call(op_list *t, function_id function, int a, int b);
 int op_list_pow(op_list *t, int base, int exponent);
 /* Enters base to a fixed power, by products and square roots if possible. */
@@ -205,7 +205,7 @@ bool op_list_reads_turns(const op_list *t);
 /* A wave: a phase composed of turn angles, which a step can rotate (core/step/stage_turn.h). */
 static inline bool op_list_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
 int op_list_waves(const op_list *t);
-/* Is every wave a sum of turn angles and a number? Then a step can pass their sine-cosine pairs to the list. */
+/* Can a step pass the waves' sine-cosine pairs to the list? Each wave must be a sum of turn angles and a number. */
 bool op_list_takes_waves(const op_list *t);
 
 /* Returns the number of the first result that depends on a constant that is not finite, or -1. */

@@ -54,7 +54,7 @@ static matrix kernel_of(matrix m) {
     return kernel;
 }
 
-/* A value is raw if multiplying it costs another product. */
+/* Does multiplying this value need a new product? */
 static bool is_raw(const op *o) {
     switch (op_rows[o->code].kind) {
     case OP_IS_LEAF:
@@ -70,13 +70,11 @@ static bool is_raw(const op *o) {
     return o->code == OP_SIGN || o->code == OP_POW;
 }
 
-/* The unknowns: an exponent for each operation, and one for each operand that is a raw value (is_raw()),
- * because each use of a raw value may have its own factor. */
+/* The unknown exponents: one for each operation (columns 0 .. of->count - 1), and one for each use of a raw value. */
 typedef struct unknowns {
     const op_list *of;
-    /* [2 * count] column[2 i] is the column of operation i's operand a, column[2 i + 1] that of b; 0: none */
-    int *column;
-    int *place; /* [columns] inverse of column[]: column[place[c]] == c for c >= of->count */
+    int *column; /* [of->count][2] column of each raw operand, a or b; 0: none */
+    int *place;  /* [columns] index in column[] of each column from of->count on */
     int columns;
 } unknowns;
 
@@ -84,7 +82,7 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Is this a product or quotient with a constant? The constant absorbs any factor, so there is no equation. */
+/* Can a constant of this product or quotient absorb any factor? */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -160,14 +158,14 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* The uses at which raw values are multiplied. All chosen uses of one raw value have the same factor. */
+/* Uses of raw values that a scaling multiplies. Uses of the same value get the same factor. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* column of the first chosen use of the same value */
     int count;
 } chosen;
 
-/* Does e[] multiply each chosen use, and also an operation that has no constant to absorb the factor? */
+/* Does the scaling e[] multiply every chosen use, and change more than constants? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -204,8 +202,7 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns equations for the coefficients of a sum of the rows of `all`. In this sum, the chosen uses of a raw value
- * have equal exponents, and other uses have exponent 0. */
+/* Returns equations for a weighted sum of the rows of `all`: it must multiply raw values only at chosen uses. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -291,13 +288,13 @@ op_list_freedoms op_list_freedoms_of(const op_list *t) {
     return f;
 }
 
-/* === a list with its operations multiplied by numbers, and the same results =================== */
+/* === multiplication of a list's values ======================================================== */
 
 typedef struct multiplied {
     const op_list *from;
     const double *times; /* [3 * from->count] */
     op_list *to;
-    /* [from->count] number of the operation in `to`, or -1 if each use enters it. Raw values have the factor 1. */
+    /* [from->count] number of the operation in `to`; -1: taken() enters it again at each use */
     int *made;
 } multiplied;
 
@@ -339,8 +336,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                           : m->times[operand];
 }
 
-/* Enters operation i, a product or quotient, and multiplies it by a constant: its factor becomes times[i]. C may
- * evaluate arguments in any order, so only one argument of a call enters operations. */
+/* Enters the product or quotient i, multiplied by times[i]. Only one argument of a call may enter operations, because
+ * C does not fix the order in which arguments are evaluated. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
@@ -385,7 +382,7 @@ static int make(const multiplied *m, int i) {
                                                         : times));
     case OP_IS_BINARY:
         if (o->code == OP_MUL || o->code == OP_DIV) {
-            /* each use enters its own product with a constant, because taken() changes the constant */
+            /* a product with a constant is entered at each use: taken() multiplies the constant */
             const bool at_use = o->code == OP_MUL && is_constant(m->from, o->a);
             return at_use ? -1 : make_product(m, i);
         }
@@ -415,7 +412,7 @@ op_list *op_list_multiplied(const op_list *t, const double *times) {
 
 enum { SIZES = 3, STATES = 6 };
 
-/* Factors of the rates. At rest, forces and torques dominate; at high speed, terms with rates. */
+/* The rates are multiplied by these factors. With 0, forces and torques dominate; with 10, terms with rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
 /* A reproducible value from -1 to 1 for this leaf in this state. */
@@ -476,10 +473,9 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* Weight of a result that changes a component that the list does not read: its error affects no later result. */
+/* Result i changes component i. If the list does not read this component, the result has this weight instead of 1. */
 #define UNREAD (1.0 / 64.0)
 
-/* The weight of result i is 1 if the list reads component i, which that result changes; else it is UNREAD. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -549,16 +545,15 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-/* a list is clearly better if its bias is below this part of the best list's bias */
-#define CLEARLY 0.5
-#define LESS 0.99 /* a list is better if its bias is below this part of the best list's */
+#define CLEARLY 0.5 /* bias of a clearly better list, relative to the best list: upper limit */
+#define LESS 0.99   /* bias of a better list, relative to the best list: upper limit */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 
-/* `bias` and `operations` belong to the best list of all rounds, or to the first list. */
+/* `bias` and `operations` are those of the best list in all rounds so far; at first, of `like`. */
 typedef struct scaling_search {
     const op_list *like;
-    const op_list *from; /* the last round's list */
+    const op_list *from; /* result of the previous round; at first, `like` */
     int most;            /* largest allowed number of operations */
     op_list *best;       /* NULL: none found yet */
     double bias;
@@ -567,7 +562,7 @@ typedef struct scaling_search {
     int64_t tried; /* total operations of tried lists */
 } scaling_search;
 
-/* Returns x^e. Small whole powers are products, which are exact for the tried numbers. */
+/* Returns x^e. Products give small whole powers of small whole numbers exactly. */
 static double power(double x, double e) {
     if (e == number_floor(e) && fabs(e) <= 4.0) {
         double product = 1.0;
@@ -579,7 +574,7 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* A clearly lower bias may cost operations; a lower bias may not; an equal or hardly lower bias must save some. */
+/* Only a clearly lower bias may cost operations. */
 static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -654,7 +649,7 @@ static void try_reals(scaling_search *s, const double *exponent) {
     }
 }
 
-/* A round may end early, so simple numbers are tried for every freedom before others. */
+/* Tries simple numbers with all exponent vectors before other numbers, because PATIENCE may end the round early. */
 static void search_round(scaling_search *s) {
     op_list_freedoms f = op_list_freedoms_of(s->from);
     bool *can = alloc((int64_t)f.count + 1, sizeof *can);
@@ -664,7 +659,7 @@ static void search_round(scaling_search *s) {
             const double *exponent = f.exponent + (size_t)k * (size_t)f.length;
             if (pass == 0) {
                 try_vanishing(s, exponent);
-                /* has the list few enough operations with an arbitrary factor, which makes no constant 1? */
+                /* primes and reals are not tried if an arbitrary factor already needs too many operations */
                 op_list *made = scaled_by(s, exponent, 1.2345678901);
                 can[k] = op_list_operations(made) <= s->most;
                 op_list_free(made);

@@ -8,8 +8,7 @@
 #include "host/base/hashing.h"
 #include "host/image/op_list.h"
 
-/* Keeps `count` operations: order[count] are their numbers, number[t->count] their new numbers. Operands must come
- * first. */
+/* Keeps the operations order[count]. Operation i becomes operation number[i]. */
 static void renumber(op_list *t, const int *order, const int *number, int count) {
     op *ops = alloc_more(NULL, t->room, sizeof *ops);
     for (int i = 0; i < count; i++) {
@@ -30,17 +29,17 @@ static void renumber(op_list *t, const int *order, const int *number, int count)
 
 /* === dependencies between operations ========================================================== */
 
-/* An Arm or RISC-V FPU has 32 single-precision registers. The step around the list needs the others. */
+/* An Arm or RISC-V FPU has 32 single-precision registers. The surrounding step needs some of them. */
 enum { OP_LIST_REGISTERS = 20 };
 
-/* Which operations must precede which. Phases keep their order, because it numbers the waves of a list. */
+/* Dependencies between operations. A phase also depends on the previous phase: their order numbers the waves. */
 typedef struct op_list_needs {
     const op_list *t;
-    struct arena *memory; /* owner of all working memory, also of registers and schedules */
+    struct arena *memory; /* owns every array of the analysis */
     int *before;          /* [t->count] for a phase, the previous phase; else -1 */
-    bool *given;          /* [t->count] needs no computation */
-    int *first;           /* [t->count + 1] i is used by user[first[i]] .. user[first[i + 1] - 1] */
-    int *user;            /* ascending for each operation */
+    bool *given;          /* [t->count] true if it is loaded, not computed, such as a sine */
+    int *first;           /* [t->count + 1] index in `user` of each operation's first user */
+    int *user; /* users of operation 0, then of operation 1, ..., each in ascending order */
 } op_list_needs;
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
@@ -133,8 +132,8 @@ static void hold(registers *r, int v) {
     r->value[r->count++] = v;
 }
 
-/* Sets next[v] to the position in `sequence` of the first use of each value v. Returns the later uses: the operation at
- * position `at` reads the value found[k] (op_list_taken()), whose next use is at after[TAKEN_MOST * at + k]. */
+/* Sets next[v] to the position in `sequence` that first uses value v. For each value that a position uses, the returned
+ * array has the next position that uses it: TAKEN_MOST entries for each position. */
 static int *uses_after(const op_list_needs *n, const int *sequence, int count, int *next) {
     const op_list *t = n->t;
     int *after = room(n, TAKEN_MOST * sizeof *after);
@@ -210,25 +209,22 @@ int op_list_carried(const op_list *t) {
 }
 
 /* === order of a list ========================================================================== */
-/* Reorders a finished list so that few values are live. In the order of entry, a whole matrix is computed before its
- * first row is eliminated. A large list then has more live values than a processor has registers, and a third of the
- * instructions move them to memory and back. A new order always continues with the operation that is the last use of
- * the most values. Two rules for ties (first_of) make two new orders. Neither looks further ahead, and the order of
- * entry can be better. Whirl takes the one of the three with the fewest loads and stores. Given values (the state, the
- * sine-cosine pairs) are loaded at their first use. */
+/* Reorders a finished list, because a large list has more live values than a processor has registers. A new order
+ * always continues with the operation that is the last use of the most values. The two rules for ties (first_of) give
+ * two new orders. The order with the fewest loads and stores is taken: one of these, or the order of entry. */
 
 typedef struct schedule {
     const op_list_needs *needs;
     int *waits; /* [ops] dependencies not yet computed */
-    int *uses;  /* [ops] remaining users; 2 more for a result, so that its life never ends */
-    int *ends;  /* [ops] number of values whose last remaining user is the operation */
+    int *uses;  /* [ops] remaining users, plus 2 for a result, so that it stays live */
+    int *ends;  /* [ops] number of values that have this operation as their only remaining user */
     int *until; /* [ops] last user of the operation's value */
     int *ready; /* operations without pending dependencies, unordered */
     int count;  /* number of ready operations */
     bool *done; /* [ops] */
 } schedule;
 
-/* Value v has one user less. If only one remains, counts v in the ends[] of that user. */
+/* Takes one user from value v. If one user remains, the ends[] of this user grows by 1. */
 static void use_up(schedule *s, int v) {
     const op_list_needs *n = s->needs;
     if (--s->uses[v] != 1) {
@@ -281,7 +277,7 @@ static schedule schedule_of(const op_list_needs *n) {
     return s;
 }
 
-/* The rule for ties: AS_ENTERED takes the earliest operation of the list; SOONEST_DONE the least until[]. */
+/* A tie goes to the first operation in the list (AS_ENTERED), or to that with the least until[] (SOONEST_DONE). */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
 static bool leads(const schedule *s, first_of way, int i, int j) {
@@ -404,8 +400,7 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* If operation i is a + 2 b, a - 2 b or 2 b - a, finds b (*part) and an operation a + b, a - b or b - a (*half).
- * Returns false if the list has no such operation. */
+/* If operation i is a + 2 b and the list has a + b, sets *half to a + b and *part to b. Differences work alike. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);
@@ -473,7 +468,7 @@ int op_list_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-/* Marks the operations up to `last` on which marked ones depend. */
+/* Marks all operations that the marked operations among 0 .. last need. */
 static void mark_operands(const op_list *t, int last, bool *needed) {
     int operand[2];
     for (int i = last; i >= 0; i--) {
