@@ -199,7 +199,7 @@ void op_list_order(op_list *t);
 /* Estimates the least number of loads and stores in the list's order, with some twenty registers. */
 int op_list_carried(const op_list *t);
 
-/* Does the list use angles with all their turns? A step has angles only modulo a turn. */
+/* Does the list use unwrapped angles? A step has angles only modulo a turn. */
 bool op_list_reads_turns(const op_list *t);
 
 /* A wave: a phase composed of turn angles, which a step can rotate (core/step/stage_turn.h). */
@@ -208,7 +208,7 @@ int op_list_waves(const op_list *t);
 /* Can a step pass the waves' sine-cosine pairs to the list? Each wave must be a sum of turn angles and a number. */
 bool op_list_takes_waves(const op_list *t);
 
-/* Returns the number of the first result that depends on a constant that is not finite, or -1. */
+/* Returns the index of the first result that depends on an infinite or NaN constant; -1 if there is none. */
 int op_list_not_finite(const op_list *t);
 
 /* Is the number zero, or a normal float? */

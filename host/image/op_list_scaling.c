@@ -545,8 +545,8 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-#define CLEARLY 0.5 /* bias of a clearly better list, relative to the best list: upper limit */
-#define LESS 0.99   /* bias of a better list, relative to the best list: upper limit */
+#define CLEARLY 0.5 /* a clearly better list has less than this times the best bias */
+#define LESS 0.99   /* a better list has less than this times the best bias */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 

@@ -39,7 +39,7 @@ typedef struct op_list_needs {
     int *before;          /* [t->count] for a phase, the previous phase; else -1 */
     bool *given;          /* [t->count] true if it is loaded, not computed, such as a sine */
     int *first;           /* [t->count + 1] index in `user` of each operation's first user */
-    int *user; /* users of operation 0, then of operation 1, ..., each in ascending order */
+    int *user;            /* users of operation 0, then those of 1, ...; each group ascends */
 } op_list_needs;
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
