@@ -8,7 +8,6 @@
 #include "host/fixed/fixed_list.h"
 
 /* === a list in fixed point as C =============================================================== */
-/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are constants. */
 
 enum { INLINED_MOST = 80 }; /* a list with more operations is called at each stage, not inlined */
 
@@ -136,7 +135,7 @@ static void body(FILE *out, const fixed_list *l) {
     for (int i = 0; i < l->count; i++) {
         const fixed_op *o = &l->op[i];
         if (!o->used || (o->code == FIXED_CONSTANT && !fixed_is_result(l, i))) {
-            continue; /* a constant has a statement only as a result */
+            continue; /* a constant gets a variable only if it is a result */
         }
         if (o->code == FIXED_PHASE) {
             phase(out, l, i);
@@ -189,7 +188,7 @@ static void put_limits(FILE *out, const fixed_plan *p, int at) {
     fputs(", &saturated);\n", out);
 }
 
-/* The increment of component i at a stage. */
+/* Writes the expression for the increment of component i at a stage. */
 static void put_more(FILE *out, const fixed_plan *p, int i, int stage) {
     const fixed_mover *m = &p->mover[i];
     if (!p->second) {

@@ -21,7 +21,7 @@ typedef struct component_loss {
     double asked; /* exact increment in the current step */
     double lost;  /* sum of exact minus fixed-point increments since the start */
     double most;
-    double low, high; /* range without round-off */
+    double low, high; /* extremes of value + lost */
 } component_loss;
 
 typedef struct fixed_loss {
@@ -80,7 +80,7 @@ static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
     const fixed_plan *p = l->plan;
     const image *im = p->image;
     const int all = im->angles + im->reals;
-    const int moved = p->second ? p->coordinates : 0; /* components whose slope is a rate */
+    const int moved = p->second ? p->coordinates : 0; /* number of positions */
     double slope[ALL_MOST] = {0.0};
     double at[ALL_MOST];
     for (int i = 0; i < im->inputs; i++) {
@@ -219,8 +219,7 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-/* Returns the increment of a position at a stage, before rounding. Stages may exceed the ranges: fixed_plan.c makes the
- * list fit all stages of steps that begin within the ranges. */
+/* Returns the increment of position i at a stage, with m->guard extra digits. */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1
                ? k->half_rate[i]
@@ -297,7 +296,7 @@ static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     for (int i = 0; i < p->coordinates && p->second; i++) {
         k.half_rate[i] = gained(p->mover[i].half_rate, state->real[p->linears + i]);
     }
-    /* a first-order list reads no rates */
+    /* a first-order list reads no rates, so the pointer to rates is not used */
     evaluate(run, (fixed_at){k.phase, state->real, state->real + p->linears, input}, k.given[0]);
     for (int stage = 1; stage < 4; stage++) {
         go_to_stage(run, &k, stage);

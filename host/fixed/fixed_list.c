@@ -1,4 +1,4 @@
-/* fixed_list.c: the fixed-point copy of an image's list, whose results include the step's factors. */
+/* fixed_list.c: the fixed-point copy of an image's list: ranges, binary points and shifts of its values. */
 #include "host/fixed/fixed_list.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* limits that no binary point reache
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
-    int exponent; /* size <= 2^exponent, or just above it if outward rounding enlarged it */
+    int exponent; /* ROUNDED: a size just above 2^n, after outward rounding, counts as 2^n */
     if (number_split(ROUNDED * size, &exponent) == 0.0) {
         return digits;
     }
@@ -94,7 +94,7 @@ int fixed_point_of(double size, int digits) {
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
-/* The largest size of an operation's integer, as a double. */
+/* Returns the largest absolute value of an operation's integer. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int exponent_of(double value) {
@@ -106,14 +106,12 @@ static int exponent_of(double value) {
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
 
-/* Returns the digits after the point with which the product of the operands' largest sizes fits. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* Returns the digits after the point of a sum or comparison: at most `bits`, and at most those of the finer operand.
- * Constant operands and compared values fit with them. */
+/* Returns the digits after the point of a sum or comparison: at most `bits`, and no more than the finer operand has. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -152,7 +150,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     }
 }
 
-/* Raises wanted[i] to the digits of operation i that its user `o` can use: a sum or comparison uses at most o->bits. */
+/* Raises wanted[i] to the digits of operand i that `o` uses: a sum or comparison uses at most o->bits. */
 static void request(int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -160,7 +158,7 @@ static void request(int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Reduces the digits of products, quotients and sums to those that users need, so that users do not round again. */
+/* Removes digits that no later operation uses, so that a value is rounded once, not twice. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -194,7 +192,7 @@ static int32_t whole(double value, int bits) {
 
 #define MARGIN 1e-6 /* relative; widens a denominator's range by more than its round-off */
 
-/* Aligns a sum's operand to the result's point: a constant is converted, a value is rounded. */
+/* Aligns an operand to `bits` digits after the point. */
 static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     const fixed_op *from = &l->op[operand->op];
     if (from->code == FIXED_CONSTANT) {
@@ -208,8 +206,7 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
 /* Returns the largest left shift after which an integer of at most `size` fits into 31 binary digits. */
 static int left_of(double size) { return 31 - exponent_of(size + 1.0); }
 
-/* Chooses the shifts of a product, and reduces its digits until they suffice; false: they never do. The factors have
- * `a_bits` and `b_bits` digits after the point, and allow left shifts by a_left and b_left. */
+/* Chooses a product's shifts. Lowers o->bits until they are at most a_left and b_left. Returns false if that fails. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     for (; o->bits > BITS_LEAST; o->bits--) {
         const int by = a_bits + b_bits - o->bits - 32;
@@ -260,7 +257,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
     const int a_left = constant ? room : left_of(units(a));
     const bool good = shift_product(o, a_bits, a_left, 61 - b->bits - (32 - smallest), 0);
     o->follows = a_left >= o->spread;
-    if (o->follows) { /* the shifts so far are for the smallest |b|; change them to the largest */
+    if (o->follows) { /* a.shift and by are for the smallest |b|: convert them to the largest |b| */
         const int more = most(o->spread - o->a.shift, 0);
         o->a.shift += more - o->spread;
         o->by += more;
@@ -361,7 +358,7 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 /* === ranges of values ========================================================================= */
 /* The turn angles are divided into cells, because over a whole turn a denominator's interval often contains zero. */
 
-/* Limits of the cells per turn, and of the cells of all turn angles together. */
+/* CELLS_LEAST to CELLS_MOST: cells per turn. CELLS_ALL and CELLS_ALL_MOST: cells of all turn angles together. */
 enum {
     CELLS_LEAST = 4,
     CELLS = 64,
@@ -384,7 +381,7 @@ typedef struct hull {
     int *cell;        /* [angles] */
     bool *cut;        /* [angles] true if a phase depends on the angle */
     int cells;        /* number of cells per turn */
-    bool at_middles;  /* leaves are at the middle of their ranges */
+    bool at_middles;  /* true: leaves are at mid-range, but angles keep their cells */
     bool divides_zero;
     bool unbounded;
 } hull;
@@ -405,7 +402,7 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* Encloses the sines of `a`, more tightly than enclosure_sine(). SINE_OFF covers the round-off. */
+/* Tighter than enclosure_sine(): it leaves out round-off, because the caller adds SINE_OFF. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);
@@ -516,10 +513,10 @@ static bool enclose_all(hull *h) {
 }
 
 static void say_zero(hull *h, const image *im, diags *errors) {
-    h->at_middles = true; /* all leaves but the turn angles */
+    h->at_middles = true;
     diag_error(
         errors, im->at,
-        !enclose_all(h) /* then narrower ranges do not help */
+        !enclose_all(h)
             ? "choose --number float: a turn angle takes all values, so no range can exclude "
               "zero"
             : "declare narrower ranges: range NAME = A .. B; or choose --number float",
@@ -640,7 +637,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     return made;
 }
 
-/* Enters operation i times `scale`. If the operation has a constant factor, `scale` is multiplied into that factor. */
+/* Enters scale * (operation i). A constant factor of operation i is merged with `scale`. */
 static int enter_scaled(fixed_list *l, int i, double scale) {
     const fixed_op *o = &l->op[i];
     double factor = scale;

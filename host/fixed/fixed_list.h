@@ -1,8 +1,7 @@
 /* fixed_list.h: the accelerations' operation list in fixed point: 32-bit integers, each with its own binary point.
  *
- * The image's list is copied, with its results times the step's factors. Each value gets a range and a binary point.
- * Operations without a fixed-point form are refused. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read
- * only integers and shifts, so they give the same bits. */
+ * The list is a copy of the image's list. Its results are multiplied by factors that the step needs. The interpreter
+ * (engine_fixed.c) and the C writer (c_fixed.c) read only integers and shifts, so they give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
@@ -11,10 +10,9 @@
 
 /* === the ranges that components and inputs of a scene keep to ================================= */
 
-/* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a run of the
- * scene in double: each end is twice the run's extreme value. If all values have one sign, the end near zero is half
- * the value nearest to zero; if that is zero, the range is symmetric. If the value is always zero, the range is -1 to
- * 1. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on standard error. */
+/* Fills range[reals + inputs], components first, with the declared ranges. If a component has no declared range, its
+ * range encloses its values in a run of the scene in double, with a margin. If an input has none, its range encloses
+ * its value. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on stderr. */
 bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *errors);
 
 /* Largest numbers of binary digits. The state and sums may have FIXED_KEPT_DIGITS, and other values FIXED_DIGITS.
@@ -42,7 +40,7 @@ typedef enum fixed_code {
 
 typedef struct fixed_operand {
     int op;
-    int shift;      /* bits: right shift of a sum's operand, left shift of a product's */
+    int shift;      /* in bits: left in a product or quotient, right in other operations */
     int32_t number; /* value of a constant, already shifted */
 } fixed_operand;
 
@@ -75,7 +73,7 @@ typedef struct fixed_list {
     int angles;
 } fixed_list;
 
-/* Returns the list with its results times scale[results], or NULL (reported) if an operation has no fixed form. */
+/* Copies the image's list, with result i times scale[i]. Returns NULL (reported) if an operation has no fixed form. */
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
 void fixed_list_free(fixed_list *list);
 bool fixed_is_result(const fixed_list *list, int operation);

@@ -104,7 +104,7 @@ static wh_fixed_format format_of(enclosure range, int bits) {
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
 
-/* The largest number of binary digits after the point with which `size` fits into `most` units. */
+/* Returns the largest `bits` with size 2^bits <= most. */
 static int room_for(double size, double most) {
     const int finest = fixed_point_of(size, FIXED_DIGITS) + 3;
     int less = 0;
@@ -114,8 +114,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Computes the gain by `factor`. Its input has `from` digits after the point and at most `size` units, its product has
- * `to` digits after the point. Returns false if the product does not fit. */
+/* Sets *gain to multiply x by `factor`. x has `from` digits after the point, and its integer is at most `size`. The
+ * product has `to` digits after the point. Returns false if the left shift of x overflows. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;
@@ -157,7 +157,7 @@ static const fixed_op *result_of(const fixed_plan *p, int i) {
     return &p->list->op[p->list->result[i]];
 }
 
-/* The index of the real component that result i of the list changes; -1 for an angle of a first-order system. */
+/* The index of the real component that result i of the list changes; negative for an angle of a first-order system. */
 static int kept_at(const fixed_plan *p, int i) {
     return p->second ? p->linears + i : i - p->image->angles;
 }
@@ -201,7 +201,7 @@ static bool move_place(fixed_plan *p, int i) {
     return false;
 }
 
-/* Sets how results are added to the state. */
+/* Sets the movers and the formats of components. Returns false if an increment does not fit. */
 static bool make_movers(fixed_plan *p) {
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_op *accel = result_of(p, i);
@@ -248,8 +248,7 @@ static double most_added(const fixed_plan *p, int at) {
                          2.0 * enclosure_size(result_of(p, i)->range));
 }
 
-/* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so the
- * caller repeats this until the result is true: the stages were wide enough. */
+/* Returns true if p->stage holds each range plus a step's largest change. Otherwise, widens p->stage. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -264,8 +263,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* Finds the range of every value of the list from p->stage, the ranges of the state at a stage. Returns false after an
- * error (reported), such as a value that is too large. ranges_alone: p->stage is still p->range. */
+/* Finds the ranges of the list's values for leaves within p->stage. Returns false after an error (reported) or an
+ * interrupt. `ranges_alone`: p->stage equals p->range. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = {p->stage, p->stage + p->linears, p->stage + im->reals};
@@ -324,7 +323,7 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Chooses the points again while their rounding widens the stages. Returns false on failure. */
+/* Repeats make_points() until p->stage has room for the round-off. Returns false on failure. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {
@@ -360,7 +359,7 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* Returns the initial format of a component. It can hold `range` and, at stages, `stage`. */
+/* Returns an initial format: `range` fits into FIXED_DIGITS digits, and `stage` into FIXED_KEPT_DIGITS. */
 static wh_fixed_format first_format(enclosure range, enclosure stage) {
     const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
     const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);

@@ -1,12 +1,10 @@
-/* fixed_plan.h: a scene's step in fixed point: ranges and formats of the state, its list, the method's constants. */
+/* fixed_plan.h: plan of a scene's RK4 step in fixed point: ranges, binary points, operation list and constants. */
 #ifndef FIXED_FIXED_PLAN_H
 #define FIXED_FIXED_PLAN_H
 
 #include "core/fixed_scene.h"
 #include "host/fixed/fixed_list.h"
 #include "host/image/image.h"
-
-/* === statements that fixed point refuses, each at its place =================================== */
 
 /* Reports each input without a declared range, because generated code may get other values than the run. Returns false
  * if there is such an input. */
@@ -42,7 +40,7 @@ typedef struct fixed_plan {
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
     bool second;
-    int coordinates;    /* for first order, the number of components */
+    int coordinates;    /* first order: angles + reals */
     int linears;        /* coordinates that are no angles */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
@@ -57,8 +55,8 @@ typedef struct fixed_plan {
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Prints a line for each undeclared range, such as "range theta' = -40 .. 40: not declared, ...", and for each declared
- * range of a turn angle, because it is not used. Lines start with `begin`. */
+/* Prints a line for each range that is not declared, and for each turn angle with a declared range: Whirl ignores that
+ * range. Each line starts with `begin`. */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

@@ -61,12 +61,13 @@ static inline int core_stops(const image *im) {
     return stops;
 }
 
-/* Largest numbers of evaluations in a step: of the accelerations (or derivatives), and of the contacts' signals. */
+/* Largest number of evaluations of the accelerations (or derivatives) in a step. */
 static inline int core_evaluations(const image *im) {
     const int stages = core_stages(im);
     return im->contacts == 0 ? stages : WH_CONTACT_EVALUATIONS(stages, core_stops(im), im->forced);
 }
 
+/* Largest number of evaluations of the contacts' signals in a step. */
 static inline int core_signals(const image *im) {
     return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
 }
@@ -93,7 +94,7 @@ static inline int core_ledger_words(const image *im) {
     return im->ledger.kept ? 2 * form.entries + form.accounts : 0;
 }
 
-/* Number of reals for WH_MEMORY_BYTES(): the state, low parts of compensated sums, inputs, holds and the ledger. */
+/* Number of reals for WH_MEMORY_BYTES(): the state, its low parts if sums are compensated, inputs, holds, ledger. */
 static inline int core_memory_reals(const image *im) {
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
     return im->reals + carried + im->inputs + im->held + core_ledger_words(im);
