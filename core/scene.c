@@ -83,11 +83,14 @@ static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *
     }
 }
 
-/* Returns the number of reals in the caller's memory. */
+/* Returns how many reals the ledger needs. */
+static size_t ledgers(const wh_scene *scene) {
+    return scene->ledger == NULL ? 0U
+                                 : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
+}
+
 static size_t all_reals(const wh_scene *scene) {
-    const size_t ledger =
-        scene->ledger == NULL ? 0U : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
-    return scene->reals + carries(scene) + scene->inputs + scene->held + ledger;
+    return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
 }
 
 /* True if every object in a state's memory may begin here: at a multiple of its alignment in a struct. On some machines
@@ -104,12 +107,16 @@ static bool is_aligned(const void *memory) {
     return (uintptr_t)memory % offsetof(struct behind_a_byte, behind) == 0;
 }
 
+static bool is_possible(const wh_scene *scene, const wh_state *state, const void *memory) {
+    return scene != NULL && state != NULL && scene->contacts <= WH_CONTACTS_LIMIT &&
+           wh_method_takes(scene->method, scene->form) && is_aligned(memory);
+}
+
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes) {
     if (state != NULL) {
         state->real = NULL; /* not started yet */
     }
-    if (scene == NULL || state == NULL || scene->contacts > WH_CONTACTS_LIMIT ||
-        !wh_method_takes(scene->method, scene->form) || !is_aligned(memory)) {
+    if (!is_possible(scene, state, memory)) {
         return WH_E_ARGUMENT;
     }
     const size_t numbers = all_reals(scene);
@@ -121,8 +128,9 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
         state->fault = (int)wrong;
         return WH_E_ARITHMETIC;
     }
+    wh_real *reals;
     state->angle = memory;
-    wh_real *reals = (wh_real *)(void *)(state->angle + scene->angles);
+    reals = (wh_real *)(void *)(state->angle + scene->angles);
     state->real = reals;
     reals += scene->reals;
     state->carry = scene->compensated ? reals : NULL;

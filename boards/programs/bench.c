@@ -43,6 +43,24 @@ __attribute__((noinline)) wh_real bench_two(wh_real (*function)(wh_real x, wh_re
     return function(x, y);
 }
 
+static void say_stack(const char *name) {
+    line_of("stack", name);
+    line_number(board_stack_used_bytes());
+    line_end();
+}
+
+static void say_failed(const char *name, wh_status status) {
+    line_of("failed", name);
+    line_word(wh_status_text(status));
+    line_end();
+}
+
+static void count_nothing(void) {
+    wh_count_begin();
+    wh_count_end();
+    intervals++;
+}
+
 static void count_pairs(void) {
     const unsigned first = intervals;
     for (unsigned i = 0; i < COUNTED_PAIRS; i++) {
@@ -152,16 +170,12 @@ static bool count_scene(const wh_scene *scene) {
         intervals++;
     }
     if (status == WH_OK) {
-        line_of("stack", scene->name);
-        line_number(board_stack_used_bytes());
-        line_end();
+        say_stack(scene->name);
         say_counted(scene->name, wh_methods[scene->method].word, sums, first, intervals - 1U);
         status = scene->multi_step != NULL ? count_multi_step(scene, &state) : WH_OK;
     }
     if (status != WH_OK) {
-        line_of("failed", scene->name);
-        line_word(wh_status_text(status));
-        line_end();
+        say_failed(scene->name, status);
         return false;
     }
 #if !BENCH_SMALL
@@ -174,9 +188,7 @@ static bool count_scene(const wh_scene *scene) {
 
 int main(void) {
     board_start();
-    wh_count_begin();
-    wh_count_end();
-    intervals++;
+    count_nothing();
     count_pairs();
 #if !BENCH_SMALL
     count_functions();
