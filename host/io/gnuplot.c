@@ -25,9 +25,8 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* Letters and UTF-8 are literal. Other characters become octal codes: they cannot form a `command`, a @macro, an escape
- * or a quote, and a digit cannot extend the code before it. Control characters become blanks, which XML allows. XML
- * forbids "]]>", and gnuplot does not escape >, so an invisible character (U+2060) is put before this >. */
+/* ASCII characters other than letters become octal codes, so that gnuplot cannot take them for syntax. XML forbids
+ * control characters, which become blanks, and "]]>", which gets an invisible character (U+2060) before its >. */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;
@@ -49,7 +48,7 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
-/* Shows gnuplot's messages. If an axis has no range, shows instead that a panel has no points, which is the reason. */
+/* Shows gnuplot's messages. If they say that an axis has no range, reports a panel without points instead. */
 static void show_said(FILE *said) {
     char *text = NULL;
     size_t size = 0;
@@ -123,7 +122,7 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
     return true;
 }
 
-/* Writes a line with the element. Control characters become blanks, because XML has none. */
+/* Writes an XML element. Control characters, which XML forbids, become blanks. */
 static void put_element(FILE *to, const char *name, const char *text) {
     fprintf(to, "<%s>", name);
     for (const char *at = text; *at != '\0'; at++) {

@@ -76,13 +76,14 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
 /* Returns false (reported) if gnuplot is missing. */
 bool gnuplot_is_there(void);
 
-/* Begins a picture of 900 by `height` pixels. An SVG gets `title` and the alternative `text`, which must live until
- * gnuplot_close(). Returns false (reported) if the file cannot be written. If gnuplot is missing, the close fails. */
+/* Begins a picture of 900 by `height` pixels. An SVG gets `title` and the alternative `text`. `file`, `title` and
+ * `text` must live until gnuplot_close(), which fails if gnuplot is missing. Returns false (reported) if the file
+ * cannot be written. */
 bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text);
 /* Finishes the picture. Returns false after a failure (reported). */
 bool gnuplot_close(gnuplot *g);
 
-/* Writes literal text in quotes, for places with gnuplot's "noenhanced". */
+/* Writes text in quotes. gnuplot shows it literally if "noenhanced" is set. */
 void gnuplot_quote(FILE *to, const char *text);
 /* Writes one character, text[at], between gnuplot's double quotes. */
 void gnuplot_character(FILE *to, const char *text, size_t at);

@@ -39,7 +39,6 @@ void decimation_free(decimation *v) {
     }
 }
 
-/* The union of two extents; of equal values, the earlier one. An extent that is not finite is ignored. */
 static extent joined(extent earlier, extent later) {
     if (!isfinite(later.least) || !isfinite(later.most)) {
         return earlier;

@@ -12,16 +12,16 @@
 
 typedef struct decimation decimation;
 
-/* For rows with `columns` columns (> 0). `samples`: a bucket keeps its first row instead of extremes, because the
- * columns belong together, as in a path of one column over another. */
+/* Each row has `columns` (> 0) columns. If `samples`, each bucket keeps its first row instead of extremes: a path of
+ * one column over another needs values of the same time. */
 decimation *decimation_new(int columns, bool samples);
 void decimation_free(decimation *v); /* NULL is allowed */
 
 /* Adds row[columns] of the next step. A bucket ignores a column's non-finite values if it also has finite ones. */
 void decimation_enter(decimation *v, const double *row);
 
-/* The rows to draw. A bucket of one step, or with `samples`, is one row. Others are two rows, with the extremes of each
- * column in order of time: for a rising column, such as the time, its first and last value. The caller frees them. */
+/* Returns the rows to draw, which the caller frees. If `samples`, or while buckets have one step, each bucket is one
+ * row. Otherwise it is two rows, with each column's extremes in their order of time. */
 double *decimation_rows(const decimation *v, int *rows);
 
 #endif

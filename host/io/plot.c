@@ -245,7 +245,7 @@ bool plot_fits(const char *command, const plot_choice *choice, const plot_run *r
 }
 
 /* === plot run ================================================================================= */
-/* CSV follows RFC 4180, with comment lines after a #. The description is TOML 1.0. */
+/* CSV follows RFC 4180, and lines that begin with # are comments. CSV.toml follows TOML 1.0. */
 
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns) {
     *run = (plot_run){.title = alloc_words("%s", title),
@@ -337,7 +337,7 @@ static bool write_beside(const char *csv, const char *text) {
     char *file = alloc_words("%s.toml", csv);
     const bool good = atomic_file_print(file, "%s", text);
     if (!good) {
-        atomic_file_not_whole(); /* after a run, the exit status is a failure, not bad input */
+        atomic_file_not_whole();
     }
     free(file);
     return good;
@@ -371,7 +371,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene) {
     const bool described = keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv);
-    /* The description is written last, so that a failed CSV leaves the old CSV and its description. */
+    /* CSV.toml is written last: if closing fails, the old CSV keeps its old description. */
     const bool closed = atomic_file_close(csv, name, keep);
     if (!closed || !described) {
         return closed;
@@ -603,13 +603,13 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
 
 /* === the plot ================================================================================= */
 
-/* In characters: room for tics such as -2.5x10^-300 and a label. All panels have it, so that their x axes align. */
+/* In characters. LEFT_MARGIN has room for a label and tics such as -2.5x10^-300. It aligns the panels' x axes. */
 #define LEFT_MARGIN 15
 #define RIGHT_MARGIN 4
 #define AXIS_MOST 26
 #define TEXT_MOST 60
 
-/* In pixels. PANEL_HEIGHT has room for one line of legend; each further line adds KEY_LINE. The others are widths. */
+/* In pixels. PANEL_HEIGHT has room for one line of legend; each further line adds KEY_LINE. */
 enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
 #define KEY_LETTER 8.5
 
@@ -643,7 +643,7 @@ static void write_axis(FILE *to, const char *axis, const char *name, const char 
 /* A curve is flat if its range relative to its size is smaller than this: tics could not show the range. */
 #define FLAT 1e-10
 
-/* Sets the range of an axis. For one value or none, gnuplot's own range would cause warnings or errors. */
+/* gnuplot's own range would cause warnings or errors if a curve is flat, or has no points. */
 static void write_range(FILE *to, const char *axis, double least, double most) {
     if (!(least <= most)) {
         fprintf(to, "set %srange [-1:1]\n", axis);
@@ -663,7 +663,6 @@ typedef struct extent {
     double most;
 } extent;
 
-/* Extends `e` by the finite values of a column; without any, least stays above most. */
 static extent joined(extent e, const plot_run *run, int column) {
     for (int r = 0; r < run->rows && column >= 0; r++) {
         const double value = run->data[(size_t)r * (size_t)run->columns + (size_t)column];
@@ -738,7 +737,7 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* The legend's entry for the shade, or "". Several runs need a short entry, because it widens all columns. */
+/* The legend's entry for the shade, or "". */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? alloc_words("%s", "")
@@ -864,7 +863,6 @@ static void write_data(FILE *to, const plot_run *run, int number) {
     fputs("EOD\n", to);
 }
 
-/* The requested title, the run's, or the axes in words. The caller frees the result. */
 static char *title_of(const panels *p, const plot_choice *choice, const plot_run *runs) {
     bool alike = true;
     for (int k = 1; k < p->runs; k++) {
@@ -879,7 +877,7 @@ static char *title_of(const panels *p, const plot_choice *choice, const plot_run
     return title;
 }
 
-/* For readers who cannot see the picture; to be freed. */
+/* Describes the curves in words. The caller frees the result. */
 static char *alternative_text(const panels *p, const plot_run *runs) {
     char *text;
     FILE *to = alloc_text(&text, NULL);

@@ -38,11 +38,11 @@ void plot_run_close(plot_run *run);
  * error. Returns false after an error (reported). Call plot_run_close() in any case. */
 bool plot_run_read(const char *command, const char *csv, plot_run *run);
 
-/* Writes CSV.toml about the run: lines `facts` first, `tables` last. Returns false after an error (reported). */
+/* Writes CSV.toml: the lines `facts`, data about the run, the lines `tables`. Returns false (reported) on failure. */
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 
-/* Closes a CSV file like atomic_file_close(). Then, for a regular file, writes CSV.toml with version, `command` and
- * `scene` ("": none). Returns false after an error (reported). */
+/* Calls atomic_file_close(). If that kept a regular file, also writes CSV.toml: Whirl's version, `command` and `scene`
+ * ("": none). Returns false after an error (reported). */
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene);
 
@@ -65,7 +65,7 @@ typedef struct plot_choice {
     const char *ylabel; /* labels of the panels; NULL: quantities and unit */
 } plot_choice;
 
-/* Does each name have a quantity, and each panel one unit? If not, reports it. Needs no data. */
+/* Returns false (reported) if a quantity of the choice is unknown, or a panel has two units. The runs need no data. */
 bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count);
 /* Is x a quantity other than column 0? */
 bool plot_is_path(const plot_choice *choice);
@@ -112,9 +112,9 @@ typedef struct figure_data {
 /* Finds the next line from *at on that begins with `word` and a blank. Returns its rest, to be freed, or NULL. */
 char *figure_line(const char **at, const char *word);
 
-/* Draws the figure. `varied`: options that changed its runs, or "". If there are any, the title names them, and they
- * replace the caption, which describes the original runs. Returns false (reported) if the description (`where`) is
- * wrong, or drawing fails. */
+/* Draws the figure described by `text`, which messages call `where`. `varied`: options that changed its runs, or "".
+ * They are added to the title, and replace the caption, which describes the original runs. Returns false (reported) if
+ * the description is wrong, or drawing fails. */
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied);
 

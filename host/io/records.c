@@ -72,7 +72,7 @@ static int column_of(const records *r, int unknown_index, int primes) {
 
 typedef struct layout {
     const char *header, *between, *end;
-    const char *unit; /* text before [unit]; a blank would separate plain columns */
+    const char *unit; /* text before [unit] */
 } layout;
 
 static const layout csv = {"", ",", "\r\n", " "};
@@ -166,7 +166,7 @@ bool records_write(const records *r) {
 
 /* Most units of time in a dump; doubles represent all whole numbers up to 2^53. */
 #define TICKS_MOST 0x1p52
-/* Fewest units of time in a step, to resolve events within it. TICKS_MOST and VCD_FINEST take precedence. */
+/* Least units of time in a step, to resolve events within it. TICKS_MOST and VCD_FINEST can force fewer. */
 #define TICKS_LEAST 1e3
 
 struct traces {
@@ -174,7 +174,7 @@ struct traces {
     vcd *vcd;
     FILE *out;
     double units_per_s;
-    int *signal;   /* [columns]; the time has none */
+    int *signal;   /* [columns]; [0], the time, is unused */
     int *mode_of;  /* [contacts] wires */
     int *event_of; /* [contacts] event signals, or -1 */
     int *mode;     /* [contacts] scratch */
@@ -235,7 +235,7 @@ static void name_contacts(traces *w) {
     }
 }
 
-/* An input with a rate is a column: its value changes. */
+/* An input is a column of the records if it has a rate. */
 static bool is_column(const image *im, int input) {
     bool is = false;
     for (int i = 0; i < im->drives; i++) {

@@ -36,7 +36,7 @@ char *records_name(const record_column *c);
 enum { RECORDS_SHOWN_NAME = 100 };
 const char *records_shown_name(const record_column *c, char text[RECORDS_SHOWN_NAME]);
 void records_header(records *r);
-/* Reads the run's state into r->row. `time_s` is steps * step, which is exact. */
+/* Reads the run's state into r->row. `time_s` becomes the column of the time. */
 void records_read(records *r, void *run, double time_s);
 /* Writes r->row to r->out and r->plain. Returns false if writing failed. */
 bool records_write(const records *r);
@@ -47,13 +47,14 @@ bool records_write(const records *r);
  * above its value. An event marks the instant of an impact at a stop, or of a crossing of a `when`. If a step has more
  * than WH_EVENT_LOG events (core/state.h), the dump has only the first ones. */
 
-/* The dump's unit of time is 10^-power s. *power is the least with 1000 units in a step, but is at most VCD_FINEST, and
- * lower if the run would have 2^52 units. Returns false if a step is less than a unit, or if the run takes 2^52 s. */
+/* Sets *power. The dump's unit of time is 10^-power s, and a step has at least 1000 units. A step has fewer if *power
+ * would exceed VCD_FINEST, or the run would have 2^52 units. Returns false if a step would be shorter than one unit, or
+ * the run takes 2^52 s or more. */
 bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;
 
-/* Writes the head to `out`, which the caller owns. `form` has the columns. traces_power() must have returned true. */
+/* Begins a dump of the columns of `form` on `out`. The caller owns both. traces_power() must have returned true. */
 traces *traces_open(FILE *out, const records *form);
 /* Adds the contacts' events of the last step. `steps`: steps so far. */
 void traces_step(traces *w, const void *run, uint64_t steps);

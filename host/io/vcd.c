@@ -26,7 +26,7 @@ typedef struct change {
 struct vcd {
     FILE *out;
     int digits;
-    int scopes; /* open scopes; 0: the head is complete */
+    int scopes; /* number of open scopes */
     vcd_signal *signal;
     int64_t signals;
     int64_t time;    /* the last written time; -1: none */

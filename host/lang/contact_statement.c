@@ -243,7 +243,7 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* Reads an optional direction, and reports any other name. Returns false if that name resembles no direction. */
+/* Reads an optional direction. Reports any other name, and returns false if it is no misspelt direction. */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;

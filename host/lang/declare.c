@@ -225,7 +225,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            /* `any`: the value is a literal zero. A let of zero fits every dimension, but no other symbol does. */
+            /* `any`: a literal zero, which fits every dimension. Only a let keeps this. */
             made->dim.any &= made->kind == SYM_LET;
         }
     }
