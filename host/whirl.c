@@ -127,7 +127,7 @@ static int answer(int count, char **words) {
     return asks_for_help ? named->run(1, help) : named->run(count - 2, words + 2);
 }
 
-/* Fails if any part of the output was not written, even if the last part was: an incomplete answer is useless. */
+/* Checks ferror(), because an earlier write may have failed even if this flush succeeds. */
 static int after_writing(int code) {
     errno = 0;
     const bool last_part = fflush(stdout) == 0;

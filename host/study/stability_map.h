@@ -8,8 +8,8 @@
 
 #include "host/study/point.h"
 
-/* A run is out of bounds if the error of an unknown's highest derivative exceeds this many times that derivative's
- * range. A growing error exceeds this bound long before overflow. */
+/* A run diverges if the error of an unknown's highest derivative exceeds MAP_BOUND times the range of that derivative.
+ * A growing error exceeds this bound long before overflow. */
 #define MAP_BOUND 100.0
 
 /* The verdicts, from good to bad. X(id, mark, word, words) */
@@ -37,7 +37,7 @@ typedef struct map_cell {
     map_verdict verdict; /* with MAP_NONE and MAP_UNTRIED the other fields are not set */
     double end_s;        /* the run's last time */
     double until_s;      /* the run is accurate to the tolerance until this time */
-    double left_over;    /* energy residual as a part of the largest entry; NAN: unknown */
+    double left_over;    /* |energy residual| / (largest entry of its balance); NAN: unknown */
 } map_cell;
 
 typedef struct map_request {
@@ -51,7 +51,7 @@ typedef struct stability_map {
     const grid *grid;
     map_cell *cell; /* [grid->points] */
     uint64_t done;  /* number of completed cells; fewer than points after an interrupt */
-    int along;      /* index of the axis along a row: that of the step, or 1 if there is none */
+    int along;      /* index of the axis along a row: 0 if axes[0] is the step, else 1 */
     bool by_step;   /* one axis is the step */
 } stability_map;
 

@@ -135,7 +135,7 @@ static void lane_close(lane *l, int columns) {
     image_free(l->image);
 }
 
-/* Updates each column's largest difference from the full run; infinite if one of the two values is NAN. */
+/* Updates each column's largest difference from the full run. */
 static void lane_compare(lane *l, const records *full) {
     records_read(l->records, l->run, full->row[0]);
     for (int i = 1; i < full->columns; i++) {
@@ -187,7 +187,6 @@ static void contact_acts(subsets *s, int contact) {
     }
 }
 
-/* A friction always acts, a stop or hold acts while it is closed, and any contact acts at an event. */
 static void contacts_act(subsets *s, void *run) {
     engine_event event[WH_EVENT_LOG];
     int mode[WH_CONTACTS_LIMIT];
@@ -237,7 +236,7 @@ static void lane_stop(lane *l, const char *why) {
     l->run = NULL;
 }
 
-/* Runs list[0] beside the subsets from list[first] on. If `first` > 1, it stops each subset that exceeds a limit. */
+/* Runs list[0], and all subsets from list[first] on. If `first` > 1, a subset stops when its error exceeds a limit. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;
@@ -302,7 +301,6 @@ bool subsets_run(subsets *s, diags *errors) {
 
 static int effects_of(uint64_t mask) { return __builtin_popcountll(mask); }
 
-/* Is `a` better? Fewer effects are better; then fewer evaluations in the longest step; then a cheaper step. */
 static bool is_better(const subset *a, const subset *b) {
     const int fewer = effects_of(a->out) - effects_of(b->out);
     const double longer = a->figure[SUBSET_WORST] - b->figure[SUBSET_WORST];

@@ -1,7 +1,7 @@
 /* subsets.h: runs of a scene without some of its effects, compared with the run that has all of them.
  *
- * All runs step side by side, in double, so no motion is stored. A term acts if leaving it out changes a slope by more
- * than round-off. A stop, hold or crossing acts if it has an event or is closed. */
+ * The runs step side by side in double. An effect acts only if some record differs without it. In addition, a term must
+ * change a slope by more than round-off, and a contact other than friction must have an event or be closed. */
 #ifndef STUDY_SUBSETS_H
 #define STUDY_SUBSETS_H
 
@@ -9,11 +9,11 @@
 #include "host/io/records.h"
 #include "host/lang/model.h"
 
-/* The most effects of a scene. With up to SUBSETS_ALL_MOST acting effects, all of their subsets are run. */
+/* At most SUBSETS_EFFECTS_MAX effects are selected. If more than SUBSETS_ALL_MOST act, not all subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
-/* The costs of a scene in float: cycles of a step (instructions if the board's cycles are a range), the largest number
- * of evaluations in a step, flash and RAM in bytes. NAN: unknown. */
+/* Costs in float; NAN: unknown. In this order: cycles of a step (instructions if the board's cycles are a range),
+ * largest number of evaluations in a step, bytes of flash, bytes of RAM. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 
 /* The scene without the effects of the bits in `out`. */
@@ -37,7 +37,7 @@ typedef struct subsets {
     int effect[SUBSETS_EFFECTS_MAX]; /* the scene's effects, as indices in of->effects */
     bool acted[SUBSETS_EFFECTS_MAX]; /* the effect acted in the full run */
     double *range;                   /* [columns] range in the full run, in the column's unit */
-    double *limit;                   /* [columns] allowed error; INFINITY: any */
+    double *limit;                   /* [columns] allowed error; INFINITY: no limit */
     subset **list; /* [0]: the full scene; [k + 1]: without effect[k]; others: without several */
     int count;
 } subsets;
@@ -48,8 +48,8 @@ void subsets_close(subsets *s);
 /* Runs the full scene and those without one effect. False, reported: the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Runs the scene without each combination of acting effects. If there are too many, sets *greedy and leaves out one by
- * one. Returns the subset within the limits that has the fewest effects. If there are several, returns the cheapest. */
+/* Leaves out every combination of acting effects. If more than SUBSETS_ALL_MOST act, sets *greedy and leaves out one
+ * more effect at a time. Returns the cheapest of the subsets within the limits that have the fewest effects. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif

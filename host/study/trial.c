@@ -15,7 +15,7 @@
 
 /* === settings ================================================================================= */
 
-/* Number types, with or without compensated sums. In generated C, the compiler's options choose float or double. */
+/* Number types. In generated C, the compiler's options choose float or double. */
 static const struct {
     const char *word;
     const char *run;    /* additional options of `whirl run` */
@@ -38,7 +38,7 @@ int setting_number(const setting *s) {
     return i;
 }
 
-/* Tables of each form with three numbers of cells: the default (cells = 0), a smaller and a larger one. */
+/* Each form of table has three rows: the default number of cells (cells = 0), fewer cells, and more cells. */
 static const struct {
     const char *word;
     const char *options;
@@ -64,7 +64,7 @@ static int tables_of(const setting *s) {
 
 static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE; }
 
-/* The heading of each axis, and its words: the first members of `count` rows of `size` bytes. */
+/* An axis has `count` rows of `size` bytes. The first member of each row is its word. */
 static const struct {
     const char *heading;
     const void *rows;
@@ -116,7 +116,7 @@ static setting combination(int i) {
 
 bool setting_is_fixed(const setting *s) { return s->number == &engine_fixed; }
 
-/* Has each word of the combination an effect? Fixed point has one method, and one way to compute sines (host/fixed). */
+/* Fixed point has one method, and one way to compute sines (host/fixed). */
 static bool makes_sense(const setting *s) {
     const bool plain = s->image.angles == ANGLES_TURNED;
     if (setting_is_fixed(s)) {
@@ -202,8 +202,8 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* === trials =================================================================================== */
 
-#define REFERENCE_OPERATIONS 6e8 /* limit for the finest runs of all references: some seconds */
-#define SURELY 10.0 /* an error below SURELY times the reference's error is given as a bound */
+#define REFERENCE_OPERATIONS 6e8 /* limit on the operations of the finest runs of all references */
+#define SURELY 10.0 /* errors below SURELY times the reference's error are given as bounds */
 #define USABLE 1.0  /* largest usable error, relative to the quantity's largest value */
 
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
@@ -314,7 +314,7 @@ static void cut(trials *t) {
     }
 }
 
-/* Drops the points without motion: they have no largest value to compare an error with. If no point moves, all stay. */
+/* Drops the points at which nothing moves. If nothing moves at any point, all stay. */
 static void drop_still(trials *t) {
     int kept = 0;
     for (int p = 0; p < t->points; p++) {
@@ -448,7 +448,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             return (trial_result){.ran = false};
         }
         deviation_of_what what = t->what;
-        if (what.column >= 0) { /* only this column is compared, so give_up has its unit */
+        if (what.column >= 0) {
             what.give_up =
                 number_most(t->tolerated, USABLE * t->reference[p]->column[what.column].largest);
         }

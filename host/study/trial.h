@@ -8,8 +8,6 @@
 #include "host/study/reference_run.h"
 
 /* === settings ================================================================================= */
-/* The priced settings of a scene: the possible combinations of the axes' words, each at several steps. */
-
 /* The options of `whirl run` and `whirl derive`, except the step. */
 typedef struct setting {
     image_settings image; /* --method, --compensated, --angles, --matrix, --tables, --cells */
@@ -28,12 +26,12 @@ typedef enum setting_axis {
 const char *setting_heading(setting_axis axis); /* of a column */
 const char *setting_word(const setting *s, setting_axis axis);
 
-/* All combinations of words, except those in which a word cannot have an effect. */
+/* Settings are the combinations of one word of each axis, except those in which a word would have no effect. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
-/* Is the setting's method requested? If `method` is NULL, rk4 and nystroem3 to 5 are: in the median of the points in
- * docs/figures/price.csv, no other method is cheaper. A setting with a matrix counts as rk4. */
+/* Is the setting's method requested? If `method` is NULL, the requested methods are rk4 and nystroem3 to nystroem5: in
+ * the median over docs/figures/price.csv, no other method is cheaper. A setting with a matrix counts as rk4. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
 /* setting_order(): a sort key. setting_number(): index of the number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
@@ -44,12 +42,12 @@ cost_number setting_cost_number(const setting *s);
 /* Do only some scenes support these settings? If so, a refusal is no error. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Is a trial of this setting useful? `im` was made with it. False if the method does not support the system, or if
- * --angles lookup gives the same step as --angles turned, because the step cannot rotate its sines. */
+/* Is a trial of this setting useful? `im` was made with the setting. Returns false if the method does not support the
+ * scene. Also returns false if --angles lookup gives the same step as --angles turned (image_turns()). */
 bool setting_is_own(const setting *s, const image *im);
-/* Is the number type fixed point? It does not support every scene, nor every length of step (host/fixed). */
+/* Is the number type fixed point? Fixed point does not support every scene, nor every step length. */
 bool setting_is_fixed(const setting *s);
-/* Does a step's length affect its cost? It affects the entries of a matrix, and the shifts in fixed point. */
+/* Does the cost of a step depend on its length? True with a matrix (entries), and in fixed point (shifts). */
 bool setting_price_varies(const setting *s);
 
 enum { SETTING_TEXT = 160 }; /* room for setting_options() */
@@ -59,14 +57,14 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 const char *setting_form(const setting *s);
 
 /* === trials =================================================================================== */
-/* Makes images of the scene at each point of its varied values. */
+/* A point is a combination of the varied values, or the scene's own values. */
 typedef struct trial_source {
     void *context;
-    int points; /* number of points: combinations of the varied values, and the scene's own values */
-    /* Makes the image of a point. `step` and `until` in seconds, "0.001"; NULL: the scene's own. The caller frees it.
-     * Returns NULL if the scene refuses the setting (setting_may_be_refused()), or after an error, which it reports. */
+    int points; /* number of points */
+    /* Makes the image of a point; the caller frees it. `step` and `until` are texts such as "0.001", in s, or NULL for
+     * those of the scene. Returns NULL if the scene refuses the setting, or, with a message, after an error. */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
-    /* A point as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
+    /* The options that select a point, " --set duty=0.2"; "" for the scene's own values. Valid until the next call. */
     const char *(*name)(void *context, int point);
 } trial_source;
 
@@ -74,7 +72,7 @@ typedef struct trial_request {
     const trial_source *source;
     const cost_board *board;
     const char *target;  /* the scene as typed, for command lines that repeat a trial */
-    const char *changes; /* its changes as typed: "" or " --set m=3 ..." */
+    const char *changes; /* the scene's changes as typed: "" or " --set m=3 ..." */
     const char *of;      /* the compared output, coordinate or rate; NULL: the worst component */
     whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */
@@ -86,15 +84,15 @@ typedef struct trials {
     trial_request request;
     int points;    /* number of compared points: those with motion, or all if none has motion */
     int *place;    /* [points] index of each compared point in the source */
-    char *still;   /* options of the omitted points, a comma after each; NULL: none is omitted */
+    char *still;   /* names of the omitted points, each followed by a comma; NULL: none */
     image **image; /* [points] images of the references */
     reference **reference; /* [points] */
-    int worst;             /* the point whose reference ends first, or is least accurate */
+    int worst;             /* the point with the worst reference */
     int records;           /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double tolerated;    /* with --of: this error is usable even if it exceeds the largest value */
+    double tolerated;    /* with --of: errors up to this, in trial_unit(), are always usable */
     bool reliable;       /* all references are reliable */
-    bool without_events; /* with contacts, prices are those of a step without an event */
+    bool without_events; /* prices are those of a step without events */
     bool stopped;
 } trials;
 
@@ -103,7 +101,7 @@ typedef struct trial_result {
     bool ran; /* false: stopped, or there is no image */
     /* at all points the run reached its end, and its error is small enough (see `tolerated`) */
     bool usable;
-    double error; /* the largest of all points, in trial_unit() */
+    double error; /* the largest error of all points, in trial_unit() */
     bool bound;   /* `error` is a bound, the sum of the measured error and the reference's error */
     int point;    /* the point with the worst error */
     int column;   /* the component with the worst error */
@@ -111,7 +109,7 @@ typedef struct trial_result {
     double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
-/* Computes the references. Returns false if make() fails, or, with a message, if `of` is no column, or has noise. */
+/* Computes the references. Returns false if make() fails, or if `of` is no column or has noise (reported). */
 bool trial_begin(trials *t, const trial_request *w);
 void trial_end(trials *t);
 
@@ -125,7 +123,7 @@ cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *ow
 const char *trial_place(const trials *t, int point);
 whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);
-/* The unit of errors: "m", or "" for parts of the largest value. */
+/* The unit of errors, such as "m", or "" if errors are parts of the largest value. */
 const char *trial_unit(const trials *t);
 /* Converts an error from trial_unit() to SI. */
 double trial_error_si(const trials *t, double error);
@@ -135,7 +133,7 @@ const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
 /* The step as --step takes it, with the fewest digits that are read back exactly. Returns text. */
 const char *trial_step_text(const trials *t, deviation_pace pace, char text[NUMBER_SIZE]);
-/* The end of the compared motion, as --until takes it. In fixed point, a run to this end finds ranges of quantities. */
+/* The end of the compared motion, as --until takes it. */
 const char *trial_until(const trials *t, char text[NUMBER_SIZE]);
 
 #endif
