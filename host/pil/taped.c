@@ -27,7 +27,7 @@ typedef struct taped {
     double before_s; /* time of the last reset */
     bool failed;     /* the tape is unreadable or damaged (reported) */
     wh_frame_reader reader;
-    bool endless; /* no frame ended within the bytes of the longest frame */
+    bool endless; /* a frame is longer than any valid one */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     uint8_t words[GUEST_LINE_BYTES]; /* texts of the hello */
 } taped;
@@ -43,7 +43,7 @@ typedef struct taped_turn {
     wh_orders orders;
 } taped_turn;
 
-/* Gives up if no frame ends within the bytes of the longest frame, because the file may be an endless device. */
+/* Gives up if a frame is longer than any valid one, because the file may be an endless device. */
 static bool read_frame(taped *t, wh_frame *frame) {
     for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
         const int byte = getc(t->file);
@@ -187,13 +187,13 @@ typedef struct rows {
     FILE *out;
     int decimals; /* decimal places of a printed time: enough to resolve a tick */
     uint32_t ticks;
-    uint64_t heard;              /* the present message's ticks since plant time 0 */
+    uint64_t heard;              /* ticks from plant time 0 to the present message */
     bool cut;                    /* a row has reported the cut */
     bool has_rows;               /* value[] is valid: it has the last printed values */
-    float value[WH_SIGNALS_MAX]; /* by channel, notes after outputs */
+    float value[WH_SIGNALS_MAX]; /* of each output, then of each note */
 } rows;
 
-/* A time stamp has 32 bits: its true time is the nearest one to the message's time. */
+/* `stamp` wraps at 2^32: of its possible times, the row has the one nearest to the message's time. */
 static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
     const double per_s = (double)r->tape->hello.ticks_per_s;
     const int64_t heard = (int64_t)r->heard;

@@ -19,7 +19,7 @@ typedef struct going {
     void *run;
     double *output;   /* [outputs] of the run */
     double *value;    /* [states] of the run */
-    enclosure *exact; /* [states] the tube; before it begins, the ranges of the run */
+    enclosure *exact; /* [states] box of the tube; in find_ranges(), range of the run's values */
     flowpipe *tube;
     enclosure step_s; /* length of a step of the run */
     enclosure next_s; /* time from the flowpipe's end to the next record of the run */
@@ -53,8 +53,8 @@ static void read_run(const going *g) {
     }
 }
 
-#define LITTLE 1e-3 /* least ratio of a state's range to its size and to ranges in the same unit */
-#define STILL 1e-9  /* SI; replaces a range of 0: no tube is narrow enough to prove an error of 0 */
+#define LITTLE 1e-3 /* least range, relative to the state's largest value and ranges in its unit */
+#define STILL 1e-9  /* SI; used if the range is 0, because no tube can prove an error of 0 */
 
 static const image_unit *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
@@ -261,10 +261,9 @@ static const char *name_of(const containment_request *w, int i, char text[NAME_S
 
 enum { FIGURE = 40 };
 
-/* Rounds up to this number of decimal places, so that a statement proved for x is true for the printed number. */
+/* Prints x with this number of decimal places, rounded up, because a printed bound must not be below x. */
 static const char *not_less(double x, int places, char text[FIGURE]) {
     const char *end;
-    /* two doubles above x, because x was rounded in the conversion to its unit */
     double shown = enclosure_above(enclosure_above(x));
     snprintf(text, FIGURE, "%.*e", places, x);
     while (x > 0.0 && decimal_read(text, &end) < x) {

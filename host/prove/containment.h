@@ -29,7 +29,7 @@ typedef enum containment_verdict {
     /* proved until until_s; at the next step's end, the error is proved to exceed the tolerance */
     CONTAINMENT_LEFT,
     CONTAINMENT_UNDECIDED, /* proved until until_s; then the tube is too wide to decide */
-    CONTAINMENT_UNENDED /* proved until until_s, at which the tube or the run ends (containment_found's `end`) */
+    CONTAINMENT_UNENDED /* proved until until_s; then the proof ended: see containment_found.end */
 } containment_verdict;
 
 typedef enum containment_end {
@@ -40,14 +40,13 @@ typedef enum containment_end {
     CONTAINMENT_STOPPED   /* the user interrupted */
 } containment_end;
 
-/* The result for a state of the motion, SI. */
+/* The result for one state. Its quantities are in SI. */
 typedef struct containment_state {
     containment_verdict verdict;
     bool open;
     bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
-    double range; /* greatest minus least value in the run, at least 1e-3 of the greatest size */
-    /* allowed error: the requested one, or the tolerance times the state's range. If 1e-3 of the range of another state
-     * in the same unit is larger, it replaces the state's range. */
+    double range; /* greatest minus least value in the run, at least 1e-3 of the largest |value| */
+    /* allowed error: as requested, or the tolerance times max(`range`, 1e-3 of the largest range in this unit) */
     double within;
     double until_s;
     double off;    /* upper bound on the state's error until until_s */

@@ -139,8 +139,8 @@ static bool given_outright(making *k) {
     return true;
 }
 
-/* Finds a pivot: a number if there is one, otherwise any node that is not zero. A mass matrix is searched only
- * on its diagonal. No pivot there is zero, because the matrix is positive definite. */
+/* Finds a pivot: a number if there is one, otherwise any node that is not zero. Searches only the
+ * diagonal of a mass matrix, because such a matrix is positive definite. */
 static bool find_pivot(const making *k, const bool *row_done, const bool *column_done, int *row,
                        int *column) {
     const bool diagonal = !k->instance->mechanism->is_system;
@@ -196,7 +196,7 @@ static bool solve(making *k) {
             }
         }
     }
-    /* a row's entries in the columns of earlier pivots are zero; the unknowns of later pivots are known */
+    /* back substitution */
     for (int s = n - 1; s >= 0 && good; s--) {
         const int *entry = &k->matrix[row[s] * n];
         int right = k->force[row[s]];

@@ -9,8 +9,7 @@
 #include "host/number/functions.h"
 
 /* === axes that turn with the motion =========================================================== */
-/* Nearly orthogonal axes, so that a rotated box fits closely into a new box along them (Lohner, Enclosing the solutions
- * of ordinary initial and boundary value problems, 1987). */
+/* A rotated box fits closely into a new box along these nearly orthogonal axes (Lohner 1987, see flowpipe.h). */
 
 /* Copies the columns of `of` to a[n * n], in order of their length times radii[n], longest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
@@ -29,7 +28,7 @@ static void sorted(int n, const double *of, const double *radii, double *a) {
                 best = j;
             }
         }
-        best = best >= 0 ? best : c; /* only NaN reaches this */
+        best = best >= 0 ? best : c; /* best = -1 if all remaining lengths are NaN */
         taken[best] = true;
         for (int i = 0; i < n; i++) {
             a[i * n + c] = of[i * n + best];
@@ -38,7 +37,7 @@ static void sorted(int n, const double *of, const double *radii, double *a) {
     free(taken);
 }
 
-/* Applies the reflection by v[n], on the rows from k on, to the columns of m from `from` on. */
+/* Reflects columns from..n-1 of m by the vector v, whose first k entries count as 0. */
 static void reflect(int n, double *m, const double *v, int k, int from) {
     double norm = 0.0;
     for (int i = k; i < n; i++) {
@@ -59,7 +58,7 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
  * Doubles suffice: their round-off can only widen the result. */
 static void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
     double *a = alloc((int64_t)n * n, sizeof *a);
-    double *v = alloc((int64_t)n * n, sizeof *v); /* a row for each reflection */
+    double *v = alloc((int64_t)n * n, sizeof *v); /* row k: vector of reflection k */
     sorted(n, of, radii, a);
     for (int k = 0; k < n; k++) {
         double norm = 0.0;
@@ -99,8 +98,8 @@ static double off_orthogonal(int n, const double *axes) {
     return most;
 }
 
-/* Encloses the inverse of `axes`, for nearly orthogonal axes; otherwise returns false. A^-1 = (I - E)^-1 A^T with E = I
- * - A^T A. In the row norm, (I - E)^-1 differs from I by at most |E| / (1 - |E|). */
+/* Encloses the inverse of A = `axes`. Returns false if A is not nearly orthogonal. With E = I - A^T A, the inverse is
+ * (I - E)^-1 A^T, and |(I - E)^-1 - I| <= |E| / (1 - |E|), where |E| is the largest absolute row sum. */
 static bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
     const double e = off_orthogonal(n, axes);
     if (!(e < 0.25)) {
@@ -152,7 +151,7 @@ void zonotope_box(const zonotope *z, enclosure *box) {
     }
 }
 
-/* Finds the n longest generators, as columns. Unit axes fill missing ones. */
+/* Copies the n longest generators to columns[n * n]. If there are fewer, the other columns are unit vectors. */
 static void longest(const zonotope *z, double *columns, double *radii) {
     const int n = z->n;
     double *length = alloc(n, sizeof *length);
@@ -181,7 +180,7 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* Computes the extent of the generators from number `from` on, along each row of the inverse axes. */
+/* Computes radius[n]: the extents of the generators from..count-1 along the axes. */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {
@@ -286,7 +285,7 @@ static void reduce(zonotope *z, double *rounding) {
     free(radius);
 }
 
-/* Computes to[n] = map vector + more (NULL: 0). Then vector[n] = middle of `to`, and rounding[n] += radius of `to`. */
+/* Replaces `vector` by the middle of map vector + more, and adds the radius to `rounding`. `more` may be NULL. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *rounding) {
     for (int i = 0; i < n; i++) {
@@ -335,9 +334,9 @@ struct flowpipe {
     const exact_motion *motion;
     int states;
     int order;
-    int first;        /* highest order with derivatives; coefficients of higher order are small */
+    int first;        /* coefficients above this order have no derivatives */
     taylor *middle;   /* Taylor coefficients at the centre */
-    taylor *all;      /* Taylor coefficients over the whole box, with derivatives up to `first` */
+    taylor *all;      /* Taylor coefficients over `box`, with derivatives up to `first` */
     taylor *over;     /* Taylor coefficients over `stay`, up to `order` + 1 */
     double *centre;   /* [states] a point of the tube is `centre` plus `off` */
     zonotope *off;    /* deviation from the centre */
@@ -377,7 +376,7 @@ flowpipe *flowpipe_new(const exact_motion *m, int order) {
         t->along[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
         t->box[i] = m->start[i];
     }
-    zonotope_map(t->off, t->turn, t->along); /* no generators yet, so the map does not matter */
+    zonotope_map(t->off, t->turn, t->along); /* the deviation was 0 and becomes `along` */
     return t;
 }
 
@@ -406,8 +405,8 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
     return taylor_find(series, x);
 }
 
-/* Encloses the Taylor polynomial of state i (entry 0), or of a derivative of it, from the whole box: the sum of
- * tau^k x_k over k <= order. */
+/* Encloses the sum of tau^k c_k over k <= order. For entry 0, c_k is the Taylor coefficient of state i over `box`.
+ * Otherwise, it is the derivative of this coefficient with respect to state entry - 1. */
 static enclosure polynomial(const flowpipe *t, int i, int entry, int order, enclosure tau) {
     enclosure sum = taylor_of(t->all, i, order)[entry];
     for (int k = order - 1; k >= 0; k--) {
@@ -422,9 +421,8 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
                          taylor_of(t->over, i, t->order + 1)[0]);
 }
 
-/* Does every motion from `box` stay in `stay` for h_s? Before a motion leaves `stay`, its Taylor polynomial plus
- * Lagrange's remainder over `stay` contains it. If this sum is inside `stay`, no motion leaves. *excess: the largest
- * remainder of a state, divided by its limit. */
+/* Computes `stay`. Returns true if no motion from `box` leaves `stay` within h_s. This is proved if the Taylor
+ * polynomial plus the remainder over `stay` is inside `stay`. *excess: largest ratio of a remainder to its limit. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -481,7 +479,7 @@ double flowpipe_open(flowpipe *t, double most_s) {
         double excess;
         const bool stay = stays(t, h_s, &excess);
         excess = stay ? excess : enclosure_larger(excess, 1e6);
-        /* The remainder grows as length^(order + 1): this length brings it just below its limit. */
+        /* The remainder grows as h_s^(order + 1): `factor` brings it just below its limit. */
         const double factor =
             excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(t->order + 1)) : 2.0;
         t->guess_s = h_s * enclosure_larger(0.4, enclosure_lesser(factor, 1.5));
@@ -525,7 +523,7 @@ void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x) {
     }
 }
 
-/* Moves the centre by the middle of its displacement. left[states] encloses the displacement minus this move. */
+/* Moves the centre by the middle of its displacement. left[states] encloses the rest of the displacement. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);
@@ -547,10 +545,9 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     go_to(t, tau_s, left);
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
-    t->products +=
-        2.0 * (double)n * (double)n * (double)t->off->count; /* zonotope_map(), zonotope_frame() */
+    t->products += 2.0 * (double)n * (double)n * (double)t->off->count;
     for (int i = 0; i < n; i++) {
-        /* the derivatives must hold on the segment from the centre to the motion */
+        /* the mean value theorem needs the derivatives between the centre and the motion */
         const enclosure centre = enclosure_of(t->centre[i]);
         t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
         finite = finite && enclosure_is_finite(t->box[i]);

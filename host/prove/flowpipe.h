@@ -1,10 +1,9 @@
 /* flowpipe.h: a tube around the exact motion: for each time, a box that provably contains the motion. The method is
  * Lohner's (Enclosing the solutions of ordinary initial and boundary value problems, 1987; Nedialkov, Jackson, Corliss,
- * Validated solutions of initial value problems, 1999). A step first finds a box that contains the motion over [0, h].
- * Then x(t + tau) is the sum of three parts: the Taylor polynomial at the centre of the current set; the polynomial's
- * derivatives times the deviation from the centre; and the remainder over that box. The deviation is enclosed in a box
- * along axes that turn with the motion. All numbers are enclosures, because operations round, and because a parameter
- * such as 0.1 is not a double. */
+ * Validated solutions of initial value problems, 1999). A step of length h first finds a box that contains the motion
+ * during the whole step. Then x(t + tau) is the sum of three parts: the Taylor polynomial at the tube's centre; the
+ * polynomial's derivatives times the deviation from the centre; and Lagrange's remainder over the box.
+ * All numbers are enclosures, because operations round, and because a parameter such as 0.1 is not a double. */
 #ifndef PROVE_FLOWPIPE_H
 #define PROVE_FLOWPIPE_H
 
@@ -14,10 +13,10 @@
 #include "host/prove/taylor.h"
 
 /* === zonotope ================================================================================= */
-/* The deviation of a point from a centre: a known drift plus a sum of generators, each times a number from -1 to 1
- * (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61, 1998). A linear
- * map transforms them exactly, except for round-off, which becomes new generators. Only if there are too many
- * generators are the smallest enclosed in a box. */
+/* A set of deviations from a centre: a known drift plus a sum of generators, each times any number from -1 to 1
+ * (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61, 1998). Its image
+ * under a matrix is exact, except for round-off, which becomes new generators. If there are too many generators, a box
+ * replaces the smallest ones. */
 
 typedef struct zonotope {
     int n; /* dimensions */
@@ -33,10 +32,9 @@ void zonotope_free(zonotope *z);
 
 /* Computes the smallest box[n] that contains the zonotope. */
 void zonotope_box(const zonotope *z, enclosure *box);
-/* Computes nearly orthogonal axes, in columns, the first along the longest extent. off[n] encloses the
- * deviation's components along them. */
+/* Computes nearly orthogonal axes, in the columns of axes[n * n]. off[n] encloses the deviation along these axes. */
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off);
-/* Replaces each deviation d by map d + more, for all matrices in map[n * n] and all vectors in more[n]. */
+/* Replaces the set by one that contains M d + v for each old deviation d, M in map[n * n] and v in more[n]. */
 void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more);
 
 enum { FLOWPIPE_ORDER = 26 };

@@ -90,8 +90,8 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
-/* Computes x op y for numbers. If both are doubles and the double result is exact, returns that double, so that
- * 2*3 is a whole exponent. The error terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
+/* Encloses x op y. If both are doubles and the rounded result is exact, returns this double, so that 2*3 is a whole
+ * exponent. The test is Knuth's error of a sum or Dekker's error of a product, which requires sizes below 1e150. */
 static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
@@ -106,7 +106,7 @@ static enclosure folded(char op, enclosure x, enclosure y) {
                    : (op == '+' ? enclosure_add(x, y) : enclosure_sub(x, y));
     }
     const double r = op == '*' ? a * b : a / b;
-    const double left = op == '*' ? a : r; /* r is exact if left * b is exactly `whole` */
+    const double left = op == '*' ? a : r; /* r is exact if left * b = whole without error */
     const double whole = op == '*' ? r : a;
     const double c = 0x1.0000002p27 * left;
     const double d = 0x1.0000002p27 * b;
@@ -390,8 +390,7 @@ static int hyperbolic(graph *g, int a, bool sine) {
                      sine ? graph_sub(g, up, down) : graph_add(g, up, down));
 }
 
-/* Returns an upper (side 1) or lower (side -1) bound on asin(x), or on atan(x) if `tangent`. Tests angles at increasing
- * distances from the computed one: an angle is an upper bound if its sine or tangent is above x. */
+/* Returns an upper (side 1) or lower (side -1) bound on asin(x), or on atan(x) if `tangent`. */
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
@@ -469,7 +468,7 @@ static int read_call(reader_symbols *s, const expr *tree) {
     case FN_ATAN:
     case FN_ATAN2: break;
     }
-    /* functions with corners, and inverse functions, are possible for numbers only */
+    /* functions with corners, and inverse functions, require constant arguments */
     if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
         return refused(s, tree, function_name(tree->function));
     }

@@ -1,6 +1,6 @@
 /* graph.h: expressions as a graph of operations in which equal subexpressions are one node. Numbers are enclosures, and
- * simplifications (0 + x, 1 x, x - x) hold for all real values. A proof cannot use the algebra's normal form, because
- * that drops sums below 1e-14 of their addends. Nodes are numbered from 0, operands before their users. */
+ * simplifications (0 + x, 1 x, x - x) hold for all real values. A proof cannot use algebra/normal_form.h:
+ * there, a sum below 1e-14 of its larger addend counts as 0. Nodes are numbered from 0, operands before their users. */
 #ifndef PROVE_GRAPH_H
 #define PROVE_GRAPH_H
 
@@ -40,7 +40,7 @@ typedef struct graph {
     int slots;
 } graph;
 
-enum { GRAPH_NODES_MAX = 20000 }; /* nodes of a graph that is evaluated repeatedly */
+enum { GRAPH_NODES_MAX = 20000 }; /* limit on the nodes of the equations of motion */
 
 graph *graph_new(void);
 void graph_free(graph *g);
@@ -72,7 +72,7 @@ int graph_without(graph *g, int a, int first);
 typedef struct reader_symbols {
     graph *graph;
     const instance *instance;
-    /* derivative p of unknown i is variable first[i] + p if p < order[i], or variable highest + i if p = order[i] */
+    /* derivative p of unknown i has variable number first[i] + p if p < order[i]; number highest + i if p = order[i] */
     int *first;     /* [coordinate_count] */
     int *order;     /* [coordinate_count] */
     int highest;    /* number of states */
