@@ -46,7 +46,8 @@ static bool read_with(parser *in, const statement_word *word) {
 static bool scene_take_symbol(parser *in, const statement_word *word, token *name,
                               const symbol **found) {
     if (in->token.kind != TOKEN_NAME) {
-        return scene_fail_name(in, word);
+        (void)scene_fail_name(in, word);
+        return false;
     }
     *name = in->token;
     parser_next(in);
