@@ -8,9 +8,8 @@
 
 enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 3, WH_VERSION_PATCH = 0 };
 
-/* A scene's header refers to the scene by WH_LINKS_TO, with a name that contains a hash of the header. The .c file
- * gives the scene that name by WH_LINKED_AS. If the two files are of different versions, the linker reports an
- * undefined symbol. This costs no byte. */
+/* A generated header declares its scene under a symbol (WH_LINKS_TO) that contains the header's hash. The scene's .c
+ * file defines this symbol (WH_LINKED_AS). If the two files do not match, the linker reports an undefined symbol. */
 #if defined(__GNUC__) && defined(__ELF__)
 #define WH_STRING_OF(text) #text
 #define WH_STRING(text) WH_STRING_OF(text)

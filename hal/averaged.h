@@ -8,9 +8,9 @@
 
 WH_C_BEGIN
 
-/* Returns the force F at the centre of three successive intervals of length T, from the mean of each. The middle mean
- * is F + T^2/24 F'' plus a term of fourth order, which is not corrected. Without this correction a 2 ms mean of
- * a 6 Hz force is 0.02 % too small. The noise increases by 9 %. Arguments are below 2^28 in magnitude. */
+/* Estimates the force F at the centre of an interval of length T. `mean` is the mean of F over that interval, `before`
+ * and `behind` are the means over its neighbours, all below 2^28 in magnitude. `mean` exceeds F by about T^2/24 F'',
+ * which is subtracted. The correction increases the noise by 9 %. */
 static inline int32_t hal_averaged_middle(int32_t before, int32_t mean, int32_t behind) {
     const int32_t bends = before - 2 * mean + behind;
     return mean - (bends + (bends < 0 ? -12 : 12)) / 24;

@@ -1,4 +1,4 @@
-/* console.h: a UART to a person or a program; on the PC standard output, or a pseudo-terminal. Bytes are not converted.
+/* console.h: a UART to a person or a program. On a PC it is standard output or a pseudo-terminal. Bytes are unchanged.
  * Boards implement it (boards/<family>/), because programs without a rig need a console, too. */
 #ifndef HAL_CONSOLE_H
 #define HAL_CONSOLE_H

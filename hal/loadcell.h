@@ -15,7 +15,7 @@ WH_C_BEGIN
 #define HAL_LOADCELL_RAW_MAX 32767
 #define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)
 
-/* Time between samples, a whole number of control steps: 2 ms (Almesallmy 2006, I.3.2.1), or the build's value. */
+/* Time between samples: a whole number of control steps. Default: 2 ms (Almesallmy 2006, I.3.2.1). */
 #ifndef HAL_LOADCELL_PERIOD_TICKS
 #define HAL_LOADCELL_PERIOD_TICKS 2000U
 #endif

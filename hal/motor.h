@@ -11,7 +11,7 @@ WH_C_BEGIN
 
 typedef enum hal_motor_off_way {
     HAL_MOTOR_COAST, /* enable off: no torque, the rotor turns freely */
-    HAL_MOTOR_BRAKE  /* enable on, at 0 V: brakes the motor if the stage can short it */
+    HAL_MOTOR_BRAKE  /* enable on, at 0 V: brakes if the stage can short-circuit the motor */
 } hal_motor_off_way;
 
 /* Status bits of the drive stage: */
@@ -24,8 +24,8 @@ enum {
     HAL_MOTOR_NO_SUPPLY = 4 /* the measured supply voltage is 0: the stage cannot drive */
 };
 
-/* Switches the enable on, at 0 V, unless the motor is started. Returns hal_motor_status(): 0, or the reasons that
- * prevent driving. The enable is on if the only reason is a missing supply. Do not call it in an interrupt. */
+/* If the motor is off, sets 0 V and switches the enable on. Returns hal_motor_status(). HAL_MOTOR_NO_SUPPLY alone does
+ * not keep the enable off. Do not call it in an interrupt. */
 unsigned hal_motor_start(void);
 
 /* Drives the motor with a mean voltage, clamped to 0 ... hal_motor_supply_V() (NaN: 0), until the next call. No effect
@@ -48,8 +48,8 @@ float hal_motor_supply_V(void);
 #define HAL_MOTOR_SUPPLY_MOST_mV UINT32_C(37200)
 float hal_motor_supply_most_V(void);
 
-/* True if a converter with the range end_mV measures most_mV with a margin of 2 %, ten times the error of the
- * boards' converters (5 counts of 12 bits, 2 counts of 10 bits). Each board asserts this. */
+/* True if the end of a converter's range, end_mV, is at least 2 % above most_mV. The boards assert this. The error of
+ * their converters is smaller: 5 of 4096 counts, or 2 of 1024 counts. */
 #define HAL_MOTOR_SUPPLY_IS_SEEN(most_mV, end_mV) ((end_mV) >= (most_mV) + (most_mV) / 50U)
 
 WH_C_END

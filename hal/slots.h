@@ -25,12 +25,11 @@ typedef struct hal_slot_edge {
 } hal_slot_edge;
 
 /* Takes the oldest edge, or returns false. At least 16 edges are stored; more are lost. Do not call this function from
- * an interrupt: the queue has one reader only. A pulse lacks an edge if the edge was lost, or if the pulse began unseen
- * or was very short. Some boards give only leading edges. */
+ * an interrupt: the queue has one reader only. An edge of a pulse can be missing. Some boards give
+ * only leading edges. */
 bool hal_slots_take(hal_slot_edge *edge);
 
-/* Returns how often an edge may have been lost: the edge before it was not read yet, or the queue was full. A full
- * queue pauses the capture until an edge is taken, so that a storm of edges takes no computing time. */
+/* Returns how often edges may have been lost. On the chips, a full queue pauses the capture until an edge is taken. */
 uint32_t hal_slots_overruns(void);
 
 WH_C_END

@@ -23,7 +23,7 @@ typedef enum hal_stop_source {
 } hal_stop_source;
 hal_stop_source hal_stop_source_now(void);
 
-/* False if there is no sample yet or the line is broken. hal_stop_pressed() is then true even without a press. */
+/* False if there is no sample yet, or if the line is broken. In both cases hal_stop_pressed() is true. */
 bool hal_stop_heard(void);
 
 WH_C_END

@@ -24,9 +24,9 @@
 #define SUPPLY_V_PER_COUNT ((float)SUPPLY_FULL_mV / 1000.0f / (float)SUPPLY_COUNTS)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV),
                "the measurement ends too near to its limit");
-#define SUPPLY_RATED_V 24.0f /* before the first measurement */
+#define SUPPLY_RATED_V 24.0f /* initial value of supply_V */
 
-#define WRAP_AFTER_S 5U /* the timer wraps this early, so that every run crosses the wrap */
+#define WRAP_AFTER_S 5U /* short, so that every run tests a wrap of the timer */
 
 /* A sensor gives a pulse while the slot, 2 * HAL_SLOT_LEAD_DEG wide, is in front of it. */
 #define SLOT_AT(deg) \
@@ -98,12 +98,11 @@ _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed;
-static bool stop_heard; /* false before the first reading and after a long silence */
-/* time of the last reading of stop */
-static uint32_t stop_ticks;
+static bool stop_heard;     /* false before the first reading and after a long silence */
+static uint32_t stop_ticks; /* time of the last reading of stop */
 static uint32_t load_ticks;
 static bool load_seen;         /* load_ticks is valid */
-static const wh_signal *dials; /* signals of the dials and their notes; NULL: no dials */
+static const wh_signal *dials; /* dials first, then their notes; NULL: no dials */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
 static bool dial_heard[HAL_DIALS];
@@ -117,14 +116,13 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* After this time without a reading, stop counts as pressed. If load samples are missing, too, the guard trips before
- * this time has passed, and names the load cell as the cause. */
+/* If this time passes without a reading of stop, stop counts as pressed. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 /* Takes the newest readings of supply, stop and dials. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* until the next reading, even after the ticks wrap */
+        stop_heard = false;
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -295,7 +293,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* the plant gets the stage in a note */ }
+void hal_reset_mark(uint32_t state) { (void)state; }
 
 void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
 

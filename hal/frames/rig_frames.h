@@ -9,7 +9,7 @@
 WH_C_BEGIN
 
 /* Notes in the order of their channels, X(name, word, unit). `state` is wh_rig_stage(), `trip` a wh_trip, `reset`
- * hal_reset_cause(). The others are the result after complete turns. */
+ * hal_reset_cause(). The others come from the last result (wh_measured). */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
@@ -45,8 +45,9 @@ void hal_frames_end(int status);
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
-/* The bench operator's dials. dial_feed is the factor of the gravity compensation; if it is 0, the factor is 1, but
- * only set-points that need it are compensated. If dial_brakes is 1, the motor brakes at a run's end and after stop. */
+/* The bench operator's dials. If dial_feed is 0, the configuration decides when to compensate gravity. Otherwise
+ * gravity is always compensated, and dial_feed multiplies the compensation. If dial_brakes is 1, the motor brakes at a
+ * run's end and after stop. */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_COMPENSATION, "dial_feed", "1", 4.0f) \

@@ -16,15 +16,14 @@ typedef struct hal_turns {
     uint16_t sequence;      /* sequence number of the next readings */
     bool acted;             /* outputs were set since the last readings */
     uint32_t step_timer;    /* link timer at the begin of the control step */
-    uint32_t nothing_timer; /* link timer counts of an empty control step */
+    uint32_t nothing_timer; /* duration of an empty control step, in counts of the link timer */
     unsigned outputs;       /* number of outputs in orders.output; the notes follow them */
     wh_orders orders;
-    /* readings; `edge` and `sample` are indices of the next ones to take */
     wh_readings readings;
-    unsigned edge;
-    unsigned sample;
-    uint32_t lost;  /* number of edges and samples lost because `readings` was full */
-    wh_reset reset; /* cause of the start (0: power-on), and remembered bytes */
+    unsigned edge;   /* index of the next edge to take */
+    unsigned sample; /* index of the next sample to take */
+    uint32_t lost;   /* number of edges and samples lost because `readings` was full */
+    wh_reset reset;  /* cause of the start (0: power-on), and remembered bytes */
     wh_frame_reader reader;
     uint8_t line[64]; /* bytes read but not yet processed */
     unsigned line_at;
@@ -55,7 +54,8 @@ void hal_turns_step_ends(hal_turns *turns);
 /* Sets the bytes that survive a reset; count <= WH_REMEMBER_MAX. After the restart they are in turns->reset. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count);
 
-/* Sends the outputs and waits until `until_ticks`; if that has passed, until the next message. */
+/* Sends the outputs and waits for the next readings. Their time is `until_ticks`, or the end of the computing time if
+ * that is later. */
 void hal_turns_wait(hal_turns *turns, uint32_t until_ticks);
 
 /* Takes the oldest edge or sample. Returns false if there is none. WH_EDGES_MAX edges and WH_SAMPLES_MAX samples are

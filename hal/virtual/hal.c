@@ -109,7 +109,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* no record of faults */ }
+void hal_reset_mark(uint32_t state) { (void)state; }
 
 void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;

@@ -54,8 +54,7 @@ typedef struct slice {
     float after;    /* rate at the end */
 } slice;
 
-/* Returns the angle turned after the part s (0 to 1) of the step, from the cubic with the angles and rates of both
- * ends. At 330 rpm and steps of 1 ms, its error is below 1e-9 rad. One tick of the timer is 3e-5 rad. */
+/* Returns the angle turned in the first fraction s (0 to 1) of the step, by cubic Hermite interpolation. */
 static float way_at(const slice *during, float s, float *slope) {
     const float a = during->before + during->after - 2.0f * during->way;
     const float b = 3.0f * during->way - 2.0f * during->before - during->after;
@@ -63,8 +62,7 @@ static float way_at(const slice *during, float s, float *slope) {
     return ((a * s + b) * s + during->before) * s;
 }
 
-/* True if the rotor, turning forward or (if `forward` is false) backward, reaches the angle `edge` in this step. *part
- * is then the part of the step before that moment (0 to 1), from Newton's method. */
+/* Returns true if the rotor reaches the angle `edge` in this step. Sets *part to the part of the step before that. */
 static bool opens(const slice *during, uint32_t edge, bool forward, float *part) {
     const float gap = (float)(int32_t)(edge - during->phase);
     if (forward ? !(gap > 0.0f && during->way >= gap) : !(gap < 0.0f && during->way <= gap)) {
@@ -98,15 +96,13 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     }
 }
 
-/* Adds the pulse, if any, of the step that began at `ticks`; a step is too short for two pulses. A pulse begins when
- * the arms are the angle `lead` before the sensor or, if the rotor turns backwards, after the sensor. */
+/* Adds the pulses that begin in the step. The step began at `ticks`. */
 static void watch_slots(hal_virtual_rig *rig, const slice *during, uint32_t ticks) {
     const uint32_t lead = (uint32_t)(HAL_SLOT_LEAD_DEG * DEG);
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         const uint32_t stand = sensor * QUARTER_TURN;
         float part = 0.0f;
         if (opens(during, stand - lead, true, &part) || opens(during, stand + lead, false, &part)) {
-            /* the timer captures whole counts */
             add_pulse(rig, sensor, ticks + (uint32_t)(part * (float)rig->step_ticks));
         }
     }
@@ -142,7 +138,7 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
-/* Returns the model's duty. If the drive stage carries no current, the duty equals the back-EMF: no torque. */
+/* Returns the model's duty. A duty equal to back_emf gives no torque. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
     const bool stuck = rig->faults.stuck > 0.0f;
