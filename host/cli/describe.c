@@ -13,7 +13,6 @@
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 
-/* The words of a command without options. */
 typedef struct words_of {
     char **word; /* [count] */
     int count;

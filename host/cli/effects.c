@@ -12,7 +12,7 @@
 #include "host/study/subsets.h"
 #include "pricing.h"
 
-/* Limits without --error: ERROR_PART of a coordinate's range, but at least ERROR_LEAST (SI), because of round-off. */
+/* Default of --error for a coordinate: ERROR_PART of its range, but at least ERROR_LEAST (SI). */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 
@@ -109,7 +109,7 @@ static void print_cell(const char *head, bool is_head, const char *format, doubl
     free(text);
 }
 
-/* Prints a row, or the headings if `moved` is NULL. If `contacts` is not 0, the only figure is "evaluations". */
+/* Prints a row, or the headings if `moved` is NULL. If `contacts` is not 0, only the evaluations are known. */
 static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
                       int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {
@@ -164,7 +164,7 @@ static void print_names(const subsets *s, const char *head, uint64_t bits, const
     }
 }
 
-/* Does --set name a parameter of an omitted effect? `whirl run` would refuse it. */
+/* Does --set name a parameter of an omitted effect? `whirl run` would refuse such a --set. */
 static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     struct arena *memory = arena_new();
     diags *unsaid = diags_new();
@@ -180,7 +180,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* Removes the effects *out from --with. Those that the scene or "all" adds stay in *out: --without must name them. */
+/* Removes the effects *out from --with. Then keeps in *out only the effects that --without must name. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

@@ -94,7 +94,7 @@ static bool any_contact_acts(const equations *e, const symmetry *of) {
     return any;
 }
 
-/* For each potential energy V, prints its force along the symmetry, -dV. */
+/* For each potential energy V, prints its force along the symmetry: minus the derivative of V. */
 static void print_stored(const show *s, const equations *e, const symmetry *of,
                          const char *prefix) {
     algebra *a = e->algebra;

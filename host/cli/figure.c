@@ -36,7 +36,7 @@ static const command_usage plot_usage = {
     .why = {"", "a run failed", "", ""}};
 
 typedef struct plot_options {
-    common_options common; /* unused: each run parses `passed` */
+    common_options common; /* unused: each run parses its options from `passed` */
     plot_choice choice;
     const char *out;
     char **target; /* [targets] */
@@ -140,14 +140,14 @@ static const command_usage usage = {
     .why = {"", "a run failed", "", ""}};
 
 typedef struct figure_options {
-    common_options common; /* unused: each run parses `passed` */
+    common_options common; /* unused: each run parses its options from `passed` */
     const char *name;
     const char *out;
     const char *given[DATA_MOST]; /* NAME=FILE */
     int given_count;
     char **passed; /* [passed_count] words for every run */
     int passed_count;
-    char *varied; /* the passed words as text, a blank before each */
+    char *varied; /* the passed words as one text, with a blank before each word */
 } figure_options;
 
 /* Splits a built-in description into words by the shell's rules, in place. */
@@ -201,7 +201,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
                      figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";
     static char csv_word[] = "--csv";
-    static char strict_word[] = "--strict=off"; /* findings are only printed */
+    static char strict_word[] = "--strict=off"; /* findings must not stop the figure */
     if (kind[0] == 't') {
         fprintf(stderr,
                 "whirl figure: error: the records '%s' come from mk/figures/%s, which whirl cannot "

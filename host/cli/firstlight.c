@@ -1,5 +1,4 @@
-/* firstlight.c: `whirl firstlight`: the record of a board's first light, compared with the interpreter's runs and the
- * emulator's record; a row for docs/silicon.md. */
+/* firstlight.c: `whirl firstlight`: comparison of a board's record with the interpreter and an emulator's record. */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -274,7 +273,7 @@ static int read_record(const firstlight_options *o, const char *from_name, light
     return code;
 }
 
-/* Reads the emulator's record. It must have the hashes in `e`; its board, compiler and stack are added to `e`. */
+/* Reads the emulator's record, compares its hashes with `e`, and copies its board, compiler and stack into `e`. */
 static int expect_emulated(const firstlight_options *o, light_expected *e) {
     static light emulated;
     const int code = read_record(o, o->emulated, &emulated);

@@ -91,7 +91,6 @@ static void put_effects(const mechanism *m, const bool *with, bool ledger) {
     end_words(any);
 }
 
-/* Prints the kinds of statements in the effect `within`, or outside all effects. */
 static void put_what_is_in(const mechanism *m, int within) {
     static const char *const words[] = {"terms", "contacts", "noise"};
     bool has[3] = {false};
@@ -191,7 +190,6 @@ static void put_lines(const source_model *from, const mechanism *of) {
     }
 }
 
-/* `first`: no entry was listed before */
 static int list_one(const source_model *from, bool table, bool first) {
     bool good = true;
     if (first && table) {
@@ -258,7 +256,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* Prints name and title of each figure. Marks figures with a `table`, whose records only `make figures` makes. */
+/* Prints each figure's name and title, with "(make figures)" if whirl alone cannot make its records. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;

@@ -40,7 +40,7 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
     return same;
 }
 
-/* Neither path exists: would they name one file, with the same name in the same folder? */
+/* Would two paths that do not exist yet name one file: the same name in the same folder? */
 static bool is_one_place(const char *one, const char *other) {
     const char *slash[] = {strrchr(one, '/'), strrchr(other, '/')};
     const char *name = slash[0] == NULL ? one : slash[0] + 1;
@@ -67,7 +67,7 @@ bool files_same(const char *one, const char *other) {
             files_are_one(&first, one, &second, other));
 }
 
-/* Endings of an output and of the files beside it: unfinished (.part), description (.toml), settings (.sweep). */
+/* The endings of an output ("") and of the files that are written beside it. */
 static const char *const beside[] = {"", ".part", ".toml", ".toml.part", ".sweep"};
 enum { BESIDE = sizeof beside / sizeof beside[0] };
 
@@ -130,7 +130,6 @@ static void say_ambiguous(const sought *w, const source_model *each, size_t coun
     fputc('\n', stderr);
 }
 
-/* Reports an unknown name. The hint is the nearest name; for MECHANISM:NAME, the nearest scene of that mechanism. */
 static void say_unknown(const sought *w, const char *target, const source_model *each,
                         size_t count) {
     nearest search = nearest_start(w->name, strlen(w->name));
@@ -211,12 +210,12 @@ char *read_all(const char *path, size_t most, size_t *length) {
     for (;;) {
         *length += fread(text + *length, 1, size - *length - 1, in);
         if (*length < size - 1 || *length > most) {
-            break; /* the file's end, or too long */
+            break;
         }
         size *= 2;
         text = alloc_more(text, (int64_t)size, 1);
     }
-    if (ferror(in) != 0) { /* the part that was read may be a valid but different model */
+    if (ferror(in) != 0) { /* the text is incomplete, but may still be a valid model */
         fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
         free(text);
         text = NULL;

@@ -13,14 +13,15 @@
 
 /* === the test for two names of the same file ================================================== */
 
-/* Are these the same file, by device and inode? If an inode is 0 (some network file systems, WASI), by path. */
+/* Are these the same file? Compares device and inode, or paths if an inode is 0 (WASI, some network file systems). */
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path);
 
 /* Do two names mean one file: equal names, one existing file, or one file that does not exist yet? */
 bool files_same(const char *one, const char *other);
 
-/* Does `output` or a file beside it (.part, .toml, .sweep) equal `other` or (unless `is_input`) a file beside that? */
+/* Would `output` or a file beside it (.part, .toml, .sweep) overwrite `other`? If `is_input` is false, `other` is an
+ * output, and the files beside it are compared, too. */
 bool files_meet(const char *output, const char *other, bool is_input);
 
 /* === a file, or a built-in model ============================================================== */
@@ -37,7 +38,7 @@ typedef struct source_model {
 
 /* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Returns an exit status (reported). */
 int source_open(source_model *source, const char *target);
-/* Opens the only built-in model that has `target`. Returns an exit status; call source_close() in any case. */
+/* Opens the only built-in model with `target`. Returns an exit status (reported); call source_close() in any case. */
 int source_find(source_model *source, const struct builtin_model *models, size_t count,
                 const char *target);
 /* Returns false after an error (reported). */
@@ -47,15 +48,15 @@ void source_close(source_model *source);
 /* The existing file of a target FILE or FILE:NAME, "/dev/stdin" for "-"; NULL if there is none. The caller frees it. */
 char *source_file(const char *target);
 
-/* Finds the scene named `source->name`, else the mechanism (*in is NULL). If the name is "", finds the only scene (if
- * `prefer_scene`, and if the file has scenes) or the only mechanism. Returns an exit status (reported). */
+/* Finds the scene named `source->name`, else the mechanism (*in is NULL). If the name is "", finds the only mechanism,
+ * or the only scene if `prefer_scene` is true and the file has scenes. Returns an exit status (reported). */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
 
 typedef struct load_request {
     image_settings settings;
     image_use use;
     bool hints;    /* print a hint for a valid model that could be written better */
-    bool scene;    /* target_load(): without a name, a scene rather than the mechanism */
+    bool scene;    /* if the target has no name, target_load() prefers a scene to a mechanism */
     bool conserve; /* recover the coordinates named by `conserve` from their momenta */
 } load_request;
 
@@ -68,7 +69,7 @@ typedef struct loaded {
 /* Derives the equations of an instance and makes its image. Returns an exit status (reported); call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_request *request);
-/* The contacts as the comment that emit_octave() writes; to be freed. */
+/* Returns the argument `contacts` of emit_octave(): a comment on the contacts. The caller frees it. */
 char *contacts_in_octave(const equations *e);
 /* Can a run start with the image's method and this number type? If not, reports the reasons. */
 bool image_can_start(const image *im, const engine_kind *kind, diags *errors);
@@ -76,7 +77,8 @@ bool image_can_start(const image *im, const engine_kind *kind, diags *errors);
 void say_float_range(const image *im);
 void unload(loaded *made);
 
-/* The content of `path` ("-": standard input), NUL-terminated. NULL, reported, on an error or above `most` bytes. */
+/* Returns the content of `path` ("-": standard input), NUL-terminated; the caller frees it. Returns NULL (reported) if
+ * reading fails, or if the content is longer than `most` bytes. */
 char *read_all(const char *path, size_t most, size_t *length);
 #define RECORDS_BYTES_MAX ((size_t)1 << 30) /* longer records are refused */
 

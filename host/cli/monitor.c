@@ -342,7 +342,7 @@ static void tell(const monitor *m) {
     }
 }
 
-/* False, reported: samples were to be recorded, but the rig sent none; or a file was not read to its end. */
+/* Returns false (reported) if the rig could not send the samples to be recorded, or if reading a file failed. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {

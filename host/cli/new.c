@@ -19,7 +19,7 @@ static const command_usage usage = {
     .why = {"", "the file was not written completely",
             "NAME is not a valid name, or NAME.whirl exists"}};
 
-/* A printf() format with the name of the mechanism, and the name of the scene in two parts. */
+/* A printf() format. Its arguments: the mechanism's name; the scene's name, which is the same name and `suffix`. */
 static const char template[] =
     "# One mechanism: coordinates, constants, energies. Values carry their units.\n"
     "mechanism %s \"A pendulum on a cart\"\n"
@@ -51,7 +51,7 @@ static const char template[] =
     "  until 5 [s]\n"
     "}\n";
 
-static const char suffix[] = "_swing"; /* the ending of the scene's name */
+static const char suffix[] = "_swing";
 
 static int write_new(const char *name, const char *file) {
     if (access(file, F_OK) == 0) {

@@ -30,7 +30,7 @@ typedef struct option_row {
 #define ROW(id, word, value, group, text) [id] = {word, value, group, text},
 static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 
-/* Help texts: first and last column of descriptions, and last column of lists of names. */
+/* Columns of help texts: a description is between TEXT_COLUMN and TEXT_END; a list of names ends at LINE_COLUMNS. */
 enum { TEXT_COLUMN = 23, TEXT_END = 99, LINE_COLUMNS = 78 };
 
 void options_describe(FILE *out, const char *word, const char *value, const char *text) {
@@ -137,7 +137,7 @@ static const char *value_of(int count, char **words, int *at, const char *name, 
         *bad = true;
     } else if (word[length] == '=') {
         return word + length + 1;
-    } else if (*at < count && strncmp(words[*at], "--", 2) != 0) { /* an option is no value */
+    } else if (*at < count && strncmp(words[*at], "--", 2) != 0) {
         return words[(*at)++];
     } else {
         fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
@@ -286,7 +286,7 @@ bool options_time(const char *command, const char *option, const char *text, con
     const bool good =
         text == NULL ||
         (instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= most_s);
-    diags_free(errors); /* options_fail() is clearer than the parser's message */
+    diags_free(errors); /* not printed: the message below is clearer */
     return good || options_fail(command,
                                 "--%s '%s' is not a time%s\nhint: write a time such as 20us or 1ms",
                                 option, text, isfinite(most_s) ? " from 0 to one hour" : "");
@@ -346,7 +346,7 @@ static bool take(common_option which, const char *command, const char *value, co
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
     overrides *c = &to->changes;
     const char *word = option_rows[which].word;
-    /* other commands do not search for the ranges that fixed point needs */
+    /* only these commands determine the ranges of values that fixed point needs */
     const bool knows_fixed = strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
                              strcmp(command, "trust") == 0;
     int chosen;
@@ -418,7 +418,6 @@ static void say_unknown(const target_reader *r, const char *word) {
     }
 }
 
-/* Takes a value of an own option. Returns false, and reports the reason, if the value is wrong. */
 static bool take_value(const char *command, const own_option *o, const char *value) {
     if (o->number == NULL) {
         const int at = o->count != NULL ? *o->count : 0;
