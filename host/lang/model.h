@@ -23,7 +23,7 @@ typedef struct symbol {
     symbol_kind kind;
     const char *name;
     const char *text; /* the description in quotes, or "" */
-    /* the declared unit without blanks, or "". A parameter or input has the unit of its value if that is one number. */
+    /* the declared unit without blanks, or "". A parameter or input whose value is one number has the number's unit. */
     const char *unit;
     unit_scale declared; /* scale of the declared unit; divisor 0 if no unit is declared */
     dimension dim;       /* dimension of the symbol without primes */
@@ -32,10 +32,10 @@ typedef struct symbol {
     place at;            /* place of its declaration */
     int index;           /* number among the mechanism's symbols of this kind, as declared */
     int effect;          /* index of the effect that declared it, or -1 */
-    int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
+    int order;           /* coordinate: 2; state: order of its highest derivative; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
     /* Inside a step, a driven coordinate replaces an input that has a rate. It comes after the declared coordinates.
-     * `driven` of the input or its rate: this coordinate. Of this coordinate: the input. Of other symbols: NULL. */
+     * The input and its rate point to the driven coordinate, which points to the input. Other symbols have NULL. */
     const struct symbol *driven;
 } symbol;
 
@@ -44,7 +44,8 @@ static inline bool symbol_moves(const symbol *s) {
     return s->kind == SYM_COORDINATE || s->kind == SYM_STATE;
 }
 
-/* Returns the driven coordinate if `s` is its input (*primes = 0) or that input's rate (*primes = 1). Else: `s`. */
+/* If the input `s` has a driven coordinate, returns that coordinate. *primes = 1 if `s` is the rate of another input,
+ * else 0. Returns any other symbol unchanged, and does not set *primes. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
 /* Returns the input that is the acceleration of `driven`; NULL if the rate of `driven` is constant inside a step. */
@@ -71,7 +72,7 @@ typedef enum expr_op {
 struct expr {
     expr_op op;
     function_id function;
-    int primes;      /* time derivatives on a symbol: 0, 1, 2, ... */
+    int primes;      /* number of time derivatives of `symbol` */
     double number;   /* SI value of EXPR_NUMBER */
     enclosure exact; /* encloses the decimal value, which a double may not represent */
     const symbol *symbol;
@@ -83,7 +84,7 @@ struct expr {
     int order;           /* highest derivative of a coordinate or state, also within lets */
     unsigned uses;       /* USES_ bits, also within lets */
     bool is_condition;   /* a condition: true while above zero; arithmetic refuses conditions */
-    const symbol *angle; /* an angle in the expression that is not declared in rad, or NULL */
+    const symbol *angle; /* if an angle: a symbol in it whose unit is not rad; otherwise NULL */
 };
 
 enum {
@@ -91,11 +92,10 @@ enum {
     USES_PARAMETER = 2,
     USES_INPUT = 4,
     USES_OUTPUT = 8,
-    USES_UNIT = 16 /* has a number with a unit, or needs no unit (a let, an angle in radians) */
+    USES_UNIT = 16 /* contains a number with a unit, or a value that needs none, such as a let */
 };
 
-/* Greatest height of an expression tree, lets included; bounds the recursion. */
-#define EXPR_HEIGHT_MAX 1000
+#define EXPR_HEIGHT_MAX 1000 /* largest `height` of an expression, so that recursion is bounded */
 
 /* --- mechanisms -------------------------------------------------------------------------------- */
 
@@ -137,8 +137,8 @@ typedef struct contact_statement {
     const expr *restitution;     /* stop: restitution, 0 to 1 */
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
-    const expr *normal;     /* friction: normal force, or torque on an angle; below 0 counts as 0 */
-    const expr *condition;  /* hold: acts while this is above 0; FN_MIN is `and`, FN_MAX is `or` */
+    const expr *normal;     /* friction: normal force (for an angle: torque); 0 if negative */
+    const expr *condition;  /* hold: acts while this is > 0; `and` becomes FN_MIN, `or` FN_MAX */
     int direction;          /* when: +1 rising, -1 falling, 0 both */
     const assignment *sets; /* when: all values are computed before any is assigned */
     int set_count;
@@ -182,7 +182,7 @@ typedef struct mechanism {
     const symbol **outputs;
     int output_count;
     const symbol **lets;
-    int let_count; /* each let names only earlier ones */
+    int let_count; /* a let refers only to earlier lets */
     const term *terms;
     int term_count;
     const contact_statement *contacts;
@@ -235,7 +235,7 @@ typedef struct whirl_model {
 whirl_model *model_parse(const char *file, const char *text, size_t length, diags *diags);
 void model_free(whirl_model *model);
 
-/* --- instances: the numbers of a scene or bare mechanism, after the command line's changes ------ */
+/* --- instances: values of a scene or bare mechanism, with the command line's changes applied --- */
 
 /* Changes from the command line, as the user typed them ("m=3 [kg]", "theta'=1.2"). A number without a unit has the SI
  * unit of the quantity; it is refused if the declared unit is not SI. */
@@ -247,12 +247,12 @@ typedef struct overrides {
     const char *const *values;
     int value_count; /* parameters and inputs (as --set), coordinates and rates (as --start) */
     const char *const *with;
-    int with_count; /* effect names added, or "ledger"; "all" adds every effect */
+    int with_count; /* to add: names of effects, "ledger", or "all" (every effect) */
     const char *const *without;
-    int without_count; /* effects, "ledger", "conserve" or "all" (applied before effect names) */
+    int without_count; /* to remove: as above, or "conserve"; "all" acts before single names */
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
     const char *until; /* the end of the scene, or NULL */
-    const char *name;  /* replaces the scene's or mechanism's name, or NULL; not copied */
+    const char *name;  /* name of the instance; NULL: the scene's or mechanism's; not copied */
     bool balance;      /* keep a ledger if the run has contacts and a ledger is possible */
 } overrides;
 
@@ -276,21 +276,21 @@ typedef struct instance {
     const scene *scene;           /* NULL for a bare mechanism */
     const char *name;             /* the scene's name, the mechanism's, or overrides.name */
     bool *with;                   /* [effect_count] */
-    const bool *conserve;         /* [coordinate_count] as in the scene; NULL: integrate all */
+    const bool *conserve;         /* [coordinate_count] scene->conserve; NULL: conserve none */
     bool ledger;                  /* record the balance of energy and momentum */
     bool balance;                 /* as in overrides */
     double *parameter;            /* [parameter_count] SI */
     double *input;                /* [input_count] SI */
     const expr **parameter_given; /* [parameter_count] expression of each parameter */
     const expr **input_given;
-    given_value **start_given; /* [coordinate_count][order]; if a `value` is NULL, the start is 0 */
-    double **start;     /* [coordinate_count][order, at least 2] initial value, rate, ..., SI */
-    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    given_value **start_given; /* [coordinate_count][order]; a missing expression means 0 */
+    double **start;     /* [coordinate_count][order, at least 2] [i][k]: initial derivative k, SI */
+    int *start_count;   /* [coordinate_count] order of each: number of its initial values */
     range_value *range; /* [range_count] */
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */
-    folding folding;  /* digits that constant folding lost in instance_make() */
+    folding folding;  /* record of the digits that constant folding lost in instance_make() */
     whole_ratio step; /* step_s as a fraction */
     uint64_t steps;   /* steps of the run: until_s / step_s, rounded to nearest, at most 2^63 */
     struct arena *arena;
@@ -313,8 +313,8 @@ instance *instance_make(const mechanism *mechanism, const scene *scene, const ov
 instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 
-/* Reads *seconds, at least 0, from the command line, such as "1.5 [s]". A parameter in `text` has its value in the
- * scene with `changes`. `what` names the time in messages. Returns false after an error. */
+/* Reads *seconds, at least 0, from the command line's `text`, such as "1.5 [s]". `scene` and `changes` give the values
+ * of parameters in `text`. `what` names the time in messages. Returns false after an error. */
 bool instance_duration(const mechanism *mechanism, const scene *scene, const overrides *changes,
                        const char *what, const char *text, diags *diags, double *seconds);
 

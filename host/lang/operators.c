@@ -118,7 +118,7 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
 
-/* Reports `value` if it is a bare number that is added to or compared with `angle`, an angle not declared in rad. */
+/* Reports `value` if it is a number without a unit and `angle`, the other operand, is not declared in rad. */
 static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
@@ -148,7 +148,7 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
     const char *text = at.source->text + at.offset;
     size_t length =
         (in->token.kind == TOKEN_END ? at.source->length : in->token.at.offset) - at.offset;
-    for (size_t i = 1; i < length; i++) { /* the low end of a range ends before the ".." */
+    for (size_t i = 1; i < length; i++) { /* "LOW .. HIGH" of a range: keep LOW */
         length = text[i - 1] == '.' && text[i] == '.' ? i - 1 : length;
     }
     while (length > 0 && strchr(" \t\r\n", text[length - 1]) != NULL) {
@@ -219,7 +219,6 @@ static bool range_error(parser *in, place at) {
     return false;
 }
 
-/* *dim: the dimension of the power. Returns false if it is unknown; an error was reported. */
 static bool power_dimension(parser *in, place at, const expr *base, const expr *exponent,
                             dimension *dim) {
     double value = 0.0;

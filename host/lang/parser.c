@@ -111,7 +111,7 @@ const statement_word *token_statement(const token *each) {
 
 bool parser_is_word(const parser *in, word_id word) { return token_is_word(&in->token, word); }
 
-/* Does the token begin a line and show that the block's '}' is missing? `rule`: ENDS_EFFECT for an effect, ... */
+/* Does the token show that the '}' of a block is missing? `rule` is ENDS_EFFECT, ENDS_SCENE or ENDS_WHEN. */
 static bool parser_leaves(const parser *in, unsigned rule) {
     const statement_word *word = in->token.starts_line ? token_statement(&in->token) : NULL;
     return word != NULL && (word->rules & rule) != 0;
