@@ -10,9 +10,9 @@
 
 WH_C_BEGIN
 
-/* Arms the watchdog, which cannot be disarmed. If hal_watchdog_kick() is not called for more than `timeout_ticks`, it
- * cuts the drive permanently, or resets the processor, which switches the drive off. If the watchdog has its own
- * oscillator, it may act as late as after three times the timeout. */
+/* Arms the watchdog, which cannot be disarmed. If hal_watchdog_kick() is not called for more than `timeout_ticks`, the
+ * watchdog cuts the drive permanently, or resets the processor, which switches the drive off. A watchdog with its own
+ * oscillator may wait up to three times as long. */
 void hal_watchdog_start(uint32_t timeout_ticks);
 
 /* Restarts the timeout. Does not restore a drive that was cut. */

@@ -1,8 +1,8 @@
 /* virtual_rig.h: hardware simulated by the core's own model of the rig (scene rig_fixed), in single precision.
  *
- * This file has only the sensors around the model: slot edges located inside a step, the load cell's converter, the
- * timer, the watchdog. Time advances in whole steps, and only in hal_virtual_rig_advance(), so the same calls give the
- * same bits on every machine.
+ * This file adds the slot sensors, the load cell's converter, the timer and the watchdog. Slot edges can lie between
+ * two steps of the model. Time advances in whole steps, and only in hal_virtual_rig_advance(), so the same calls give
+ * the same bits on every machine.
  *
  * The hal_ functions (clock.h, motor.h, ...) act on hal_virtual_rig_instance(). The functions below work on any number
  * of rigs in the caller's memory. */
@@ -24,8 +24,8 @@ WH_C_BEGIN
 #define HAL_VIRTUAL_SAMPLES 8U
 #define HAL_VIRTUAL_PULSE_TICKS 150U /* length of the monostable's pulse */
 
-/* Supply voltage at the model's duty 1, and the no-load speed at that voltage (the model's no_load). */
-#define HAL_VIRTUAL_RATED_V 24.0f
+#define HAL_VIRTUAL_RATED_V 24.0f /* motor voltage at the model's duty 1 */
+/* no-load speed at HAL_VIRTUAL_RATED_V: parameter no_load of the model */
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
 /* The timer wraps this early, so that every run crosses the wrap. */
@@ -38,7 +38,7 @@ typedef struct hal_virtual_faults {
     unsigned lose_samples;   /* number of load samples still to lose */
     bool stuck_load_cell;    /* the load cell repeats its last count */
     float stuck; /* fraction of the supply voltage that is applied for any command; 0: no fault */
-    bool deaf;   /* if `stuck`, the stage ignores the enable, but not `cut` and `stop_cuts` */
+    bool deaf;   /* if stuck > 0, the stage drives without `enabled`, unless `cut` or `stop_cuts` */
     bool freewheels; /* the stage cannot brake */
 } hal_virtual_faults;
 
@@ -66,14 +66,14 @@ typedef struct hal_virtual_rig {
     bool stop_cuts;    /* a press of stop has cut the drive; hal_motor_off() ends the cut */
     bool stop_pressed; /* may be set at any time */
     hal_reset cause;   /* why the processor started */
-    bool in_reset;     /* from a reset until hal_clock_start(); the rotor keeps turning */
+    bool in_reset;     /* was reset, and hal_clock_start() has not been called yet */
     uint8_t remembered[HAL_REMEMBER_BYTES];
     unsigned remembers; /* number of remembered bytes */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
-/* Puts the rig at its scene's start, with motor and watchdog off. Returns false if the scene cannot be the fixed rig,
- * which has one angle, one input and 1 to 8 outputs. The scene's step must be whole microseconds (not checked). */
+/* Puts the rig at its scene's start, with motor and watchdog off. Returns false if the scene cannot start, or
+ * does not have one angle, one input and 1 to 8 outputs. The scene's step must be whole microseconds (not checked). */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
 /* Advances the time by whole steps of the model until it is `ticks` or later. */

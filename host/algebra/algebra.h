@@ -30,9 +30,9 @@ struct algebra {
     intern_table atoms;
     intern_table monos;
     intern_table polys;
-    intern_table products;    /* memo_pairs; left and right are polys */
-    intern_table derivatives; /* memo_pairs; left is a poly, right is an atom */
-    intern_table lets;        /* memo_pairs; left is a symbol, right is NULL */
+    intern_table products;    /* memo_pair objects: left and right are polys */
+    intern_table derivatives; /* memo_pair objects: left is a poly, right is an atom */
+    intern_table lets;        /* memo_pair objects: left is the let's symbol, right is NULL */
     /* bytes of all new objects, plus WORK_OF_TERM for each processed term; the limit is WORK_MAX (poly.c) */
     size_t work;
     bool overflow;
@@ -50,8 +50,7 @@ uint64_t symbol_bit(const symbol *sym, int primes);
 poly *poly_scratch(int terms);
 const poly *poly_intern(algebra *a, poly *candidate);
 
-/* The derivative of a function by its argument x (which = 0) or y (1). Without a second argument, y is NULL
- * (calculus.c). */
+/* The partial derivative by x (which = 0) or y (which = 1). If the function has one argument, y is NULL. */
 const poly *function_slope(algebra *a, function_id function, int which, const poly *x,
                            const poly *y);
 

@@ -30,7 +30,7 @@ typedef struct poly poly;
 
 typedef enum atom_kind {
     ATOM_SYMBOL, /* a coordinate, rate, acceleration, parameter or input */
-    ATOM_CALL,   /* a function other than sine and cosine, of one or two polys */
+    ATOM_CALL,   /* a function of one or two polys; not sine, cosine or square root */
     ATOM_POWER,  /* base^exponent with an exponent that is not a number */
     ATOM_GROUP   /* a sum that is not expanded: the base of a power, or too large to multiply out */
 } atom_kind;

@@ -28,7 +28,7 @@ static int of_numbers(double x, double y) {
     return (left > right) - (left < right);
 }
 
-/* Positions come first, then rates, accelerations (each in the order of declaration), calls, powers and groups. */
+/* Symbols are sorted by their number of primes first: positions precede rates. */
 static uint64_t atom_rank(const atom *x) {
     uint64_t rank = (uint64_t)x->kind << 60;
     if (x->kind == ATOM_SYMBOL) {
@@ -86,7 +86,7 @@ int poly_order(const poly *x, const poly *y) {
 
 /* === questions about a poly =================================================================== */
 
-/* A sum of at most this part of its larger addend is only round-off, because decimals are not exact in binary. */
+/* The sum of two coefficients counts as zero if it is at most this fraction of the larger coefficient. */
 #define CANCELLED 1e-14
 /* A whole power of a sum is multiplied out if this takes at most this many products of terms. */
 #define POWER_TERMS_MAX 64
@@ -136,7 +136,7 @@ static bool power_multiplies_out(const poly *base, double exponent, double kept)
         (exponent >= kept && poly_is_place(base))) {
         return false;
     }
-    int terms = 1; /* not pow(), because this runs for each product with a power */
+    int terms = 1;
     for (int i = 0; i < (int)exponent && base->count > 1 && terms <= POWER_TERMS_MAX; i++) {
         terms *= base->count;
     }
@@ -498,10 +498,10 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* === sums, products and powers ================================================================ */
 
-/* A product of two sums with more products of terms than this is not expanded. */
+/* The product of two sums is multiplied out if this takes at most this many products of terms. */
 #define PRODUCT_TERMS_MAX 400000
-/* A sum of positions stays a power if its exponent is whole and at least this, because the expanded form of (x - b)^3
- * loses its digits near x = b. Squares are expanded: otherwise, equal sums of squares could differ in form. */
+/* A power of a sum of positions is not expanded if its exponent is whole and at least this: the expanded (x - b)^3
+ * would lose its digits near x = b. Squares are expanded, so that equal sums of squares have the same form. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
@@ -540,7 +540,7 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
                              double by) {
     count_terms(a, (size_t)p->count);
     poly *changed = poly_scratch(p->count);
-    /* the terms stay sorted, because only their numbers change */
+    /* the terms stay sorted, because only their coefficients change */
     for (int i = 0; i < p->count; i++) {
         const double number = change(p->terms[i].coefficient, by);
         if (number != 0.0) {
@@ -585,8 +585,7 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
     return poly_scale(a, p, 0.5);
 }
 
-/* Replaces |p|^n by p^n (n even) or p^(n - 1) |p|, and expands a small whole power of a group. NULL for other
- * powers. */
+/* Expands a power of an absolute value or of a group. Returns NULL if the power stays as it is. */
 static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
@@ -667,7 +666,7 @@ static const poly *product_of(algebra *a, const poly *left, const poly *right) {
             sum_add(a, &row, p,
                     folding_product(left->terms[i].coefficient, right->terms[j].coefficient));
         }
-        collect(&row); /* each row is added up by itself */
+        collect(&row);
         for (size_t k = 0; k < row.count; k++) {
             push(&sum, row.items[k].mono, row.items[k].coefficient);
         }
@@ -688,7 +687,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     if (a->overflow) {
         return a->zero;
     }
-    /* A fixed order of the operands makes rounding independent of the order of the arguments. */
+    /* Sorts the operands, so that a * b and b * a are rounded equally. */
     if (poly_order(right, left) < 0) {
         const poly *swap = left;
         left = right;
@@ -702,7 +701,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     return known;
 }
 
-/* A power of a term, by rules that hold for every real value of the atoms: (x^2)^(1/2) is not x. */
+/* Uses only rules that hold for every real x: (x^2)^(1/2) does not become x, because it is |x|. */
 static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = exponent_is_whole(exponent);
@@ -736,7 +735,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         return poly_mul(a, poly_pow(a, poly_of_term(a, t->coefficient, plain), exponent),
                         poly_pow(a, poly_of_term(a, 1.0, wave), exponent));
     }
-    /* The coefficient's absolute value leaves the group. Its sign leaves the group only if the exponent is whole. */
+    /* A fractional power of a negative coefficient is not real, so the sign stays inside. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
     const double outside = whole ? folding_power(t->coefficient, exponent)
                                  : folding_power(fabs(t->coefficient), exponent);
@@ -769,8 +768,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         return p;
     }
     /* The base is divided by its first coefficient, so that sums that differ only by a factor become equal. If the
-     * exponent is positive and whole, a constant term does not count as the first, so that x - b has one form for a
-     * symbol b and for a number b. If the exponent is fractional, the base keeps its sign. */
+     * exponent is positive and whole, the constant does not count as the first term: x - 2 keeps its form. */
     const bool whole = exponent_is_whole(exponent);
     const bool constant = base->terms[0].mono->count == 0 && base->terms[0].mono->trig == TRIG_NONE;
     const double size = base->terms[constant && whole && exponent > 0.0 ? 1 : 0].coefficient;

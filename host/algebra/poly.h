@@ -41,13 +41,13 @@ const poly *poly_of_term(algebra *a, double coefficient, const mono *m);
 bool poly_is_zero(const poly *p);
 /* Returns true if p is a number, and stores it in *value. */
 bool poly_is_number(const poly *p, double *value);
-/* A quick test: false only if p certainly does not contain the symbol with `primes` primes; true may be wrong. */
+/* Quick test: if false, p does not contain the symbol with `primes` primes; if true, p may contain it. */
 bool poly_may_contain(const poly *p, const symbol *sym, int primes);
 /* Exact test: does p contain the symbol with `primes` primes? For primes = -1, any number of primes counts. */
 bool poly_contains(const poly *p, const symbol *sym, int primes);
 
-/* Determinant, by cofactors, of a submatrix of m (n by n, n <= 32). `rows` and `columns` are bit sets. Only for a few
- * rows. */
+/* Determinant of the submatrix of m that has the rows and columns in the bit sets `rows` and `columns`. m is n by n,
+ * n <= 32. The method, expansion by cofactors, is slow for many rows. */
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns);
 
@@ -58,14 +58,14 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
 typedef const poly *poly_replacement(void *context, algebra *a, const symbol *sym, int primes);
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context);
 
-/* p with its powers of sums multiplied out, unless the result is large. A p that equals zero then has no terms. */
+/* p with its powers of sums multiplied out, except for large powers. Terms that cancel after this are removed. */
 const poly *poly_expanded(algebra *a, const poly *p);
 
 /* `value` returns the value of a symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
-/* The sum of the absolute values of p's terms, as a reference for the round-off in poly_evaluate(). Sines and cosines
- * count as one, because their errors are absolute. */
+/* The sum of the absolute values of p's terms: a scale for the round-off in poly_evaluate(). Each sine or cosine is
+ * replaced by 1, because its round-off does not shrink with its value. */
 double poly_magnitude(const poly *p, poly_value *value, void *context);
 /* Are all numbers in p finite, including those inside functions? */
 bool poly_is_finite(const poly *p);

@@ -26,7 +26,6 @@ static _Noreturn void alloc_none(void) {
     exit(EXIT_RUN_FAILED);
 }
 
-/* Returns `made`, unless memory has run out. */
 static void *not_null(void *made) {
     if (made == NULL) {
         alloc_none();

@@ -21,7 +21,8 @@ char *alloc_copy(const char *text, size_t length);
 /* As alloc_copy(), without white space at both ends. */
 char *alloc_trimmed(const char *text, size_t length);
 
-/* The next entry of a list separated by commas, as alloc_trimmed(), or NULL; *list becomes the rest, NULL at the end. */
+/* Returns a copy of the text before the first comma of *list, without white space at both ends. *list becomes the text
+ * after the comma, or NULL if there is no comma. If *list is NULL, returns NULL. */
 char *alloc_entry(const char **list);
 
 /* The text that printf() would print. */
@@ -47,8 +48,8 @@ char *arena_copy(struct arena *arena, const char *text, size_t length);
 char *arena_words(struct arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Makes room for one element after the `count` in `array`. If `count` is 0 or a power of two, `array` counts as full:
- * returns a copy with twice the capacity. Otherwise returns `array`. So an array must grow one element at a time. */
+/* Returns an array with room for one more element: if `count` is 0 or a power of two, a larger copy of `array`,
+ * otherwise `array` itself. This is correct only if the array always grows by one element. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
 /* Appends a copy of `element`, and adds one to *count. Returns the array, which may have moved. */

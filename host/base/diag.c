@@ -118,7 +118,7 @@ static void copy_line(entry *made, place at) {
             made->shown[used++] = c == '\t' ? ' ' : '?';
             i++;
             while (c >= 0x80 && i < length && ((unsigned char)text[i] & 0xc0) == 0x80) {
-                i++; /* the bytes of an invalid character take one column together */
+                i++; /* an invalid character is one column, even if it has several bytes */
             }
         } else {
             memcpy(made->shown + used, text + i, bytes);
@@ -130,7 +130,7 @@ static void copy_line(entry *made, place at) {
     made->caret = before;
 }
 
-/* Compares the shown lines, too, because a new source may have the address of a freed one. */
+/* Equal addresses do not prove equal sources: a new source may have the address of a freed one. */
 static bool is_repeat(const diags *all, const entry *made) {
     for (int i = 0; i < all->held; i++) {
         const entry *each = &all->entries[i];

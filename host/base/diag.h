@@ -7,17 +7,16 @@
 
 #define DIAG_MAX 20 /* largest number of errors printed; if there were more, a last line says so */
 
-/* A source text, and a place in it. Lines and columns (characters) count from 1. Without `text`, no line is shown. */
 typedef struct source {
     const char *file;
-    const char *text;
+    const char *text; /* if NULL, messages do not show the line */
     size_t length;
 } source;
 
 typedef struct place {
     const source *source;
-    int line;
-    int column;
+    int line;      /* counts from 1 */
+    int column;    /* in characters, counts from 1 */
     size_t offset; /* bytes from the start of the text */
 } place;
 
