@@ -1,8 +1,8 @@
 /* fault.h: injected faults in a run in the loop. The controller's code is not changed. A fault is
  * KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1. Without it, a fault of edges affects
  * all edges, but a fault of samples only channel 1. WHEN is TIME, NOTE=VALUE or NOTE=VALUE~TIME. With NOTE=VALUE, the
- * fault begins when the firmware's note equals VALUE. ~TIME delays this. Without WHEN, a fault begins at the start.
- * Without DURATION, it lasts to the end. */
+ * fault begins when the firmware's note equals VALUE; with ~TIME, it begins that much later. Without WHEN, a fault
+ * begins at the start. Without DURATION, it lasts to the end. */
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 
@@ -116,7 +116,7 @@ typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
 #define FAULT_ONE(which, word, place, size, least, most, unit, words) +1
 enum { FAULT_KINDS = FAULT_ROWS(FAULT_ONE) };
 #undef FAULT_ONE
-/* Makes a case for each fault of a group. The switch has no default, so that the compiler reports a missing fault. */
+/* A case label. The switches over faults have no default, so that the compiler reports a missing fault. */
 #define FAULT_CASE(which, word, place, size, least, most, unit, words) case which:
 
 typedef struct fault_row {

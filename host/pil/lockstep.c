@@ -24,7 +24,7 @@ static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* Records a received frame. Coding it again gives the received bytes, because a frame has only one coding. */
+/* The tape gets exactly the received bytes, because a frame has only one coding. */
 static void keep_heard(talk *t, const wh_frame *frame) {
     uint8_t coded[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     keep_on_tape(t, coded, wh_frame_write(frame, coded, sizeof coded));
@@ -91,7 +91,7 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* Asks the firmware for its hello, or for the message after its program's end. */
+/* Requests the firmware's hello. After an end message, this frame acknowledges the message. */
 static guest_heard ask(talk *t) {
     uint8_t coded[WH_FRAME_BYTES(0)];
     const wh_frame frame = {.kind = WH_FRAME_ASK};
@@ -109,7 +109,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
     return ends(t->report, when_ended());
 }
 
-/* Stores frames of remembered data, and skips extra answers to ask_for_hello(). Receives the next other frame. */
+/* Receives the next frame, but stores remembered data, and skips repeated hellos. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
         if (frame->kind == WH_FRAME_END) {
@@ -407,7 +407,7 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     return wanted;
 }
 
-/* Advances the plant, at most to the run's end, in pieces, so that an interrupt is noticed. Reports divergence. */
+/* Advances the plant in pieces. After each piece, the taps can watch, and an interrupt can stop the run. */
 static bool advance(loop *l, double until_ticks) {
     const double end = number_least(until_ticks, l->talk.request->until_s * l->ticks_per_s);
     const double piece = number_least((l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s,

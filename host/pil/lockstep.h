@@ -1,6 +1,6 @@
-/* lockstep.h: firmware and plant that compute by turns. A tape can replace the plant. Each side waits for the other, so
- * a run is reproducible. Computing takes plant time: instructions times seconds per instruction. This delays the
- * firmware's outputs and its next readings. */
+/* lockstep.h: runs in which firmware and plant (or a tape) take turns. Each side waits for the other, so a run is
+ * reproducible. Each instruction of the firmware takes instruction_s of plant time. This delays the firmware's outputs,
+ * and can delay its next readings. */
 #ifndef PIL_LOCKSTEP_H
 #define PIL_LOCKSTEP_H
 
@@ -11,7 +11,7 @@
 
 /* The interface for faults (fault.h) and observers. start() is called before the first message. orders() may change
  * each message of the firmware, and delay it by adding to *late_s. readings() may change each message to the firmware.
- * A tape has orders before such changes, and readings after them. A NULL function is not called. */
+ * A tape has the original orders, but the changed readings. A NULL function is not called. */
 typedef struct tap {
     void *of;
     bool (*start)(void *of, const wh_hello *hello,
@@ -67,7 +67,7 @@ typedef struct lockstep_report {
     double wall_s;
     bool counted; /* instructions are counted */
     peak acted;   /* instructions from the readings to the outputs */
-    peak busy;    /* instructions until the firmware waited again */
+    peak busy;    /* instructions from the readings to the firmware's next wait */
     uint64_t overruns;
     peak late_s; /* delay of readings after the requested time */
     uint64_t edges;
@@ -102,8 +102,8 @@ typedef struct talk {
 /* Starts the guest and receives its hello. Returns false after an error (reported; reason in report->end). */
 bool talk_start(talk *t, const lockstep_request *request, lockstep_report *report, FILE *onto);
 
-/* Restarts the processor after a reset, as a new guest. It gets only the data in `reset`. The tape gets `ticks`.
- * Returns false like talk_start(), and also if the guest sends another hello, or the user interrupts. */
+/* Ends the guest, starts a new one, and sends it `reset` with the time `ticks`. Returns false after an
+ * error (reported) or an interrupt (reason in report->end). */
 bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset);
 
 /* Sends readings at `ticks`. Returns false if the guest is gone, or the user interrupts (reason in report->end). */
@@ -118,7 +118,7 @@ void talk_end(talk *t);
 /* Adds orders, without their instruction counts, to a hash. */
 uint64_t talk_hash(uint64_t hash, const wh_orders *orders);
 
-/* Adds the remembered data to a hash. */
+/* Adds `count` and the bytes to a hash. */
 uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count);
 
 /* Are program, ticks and signals equal? The timer that counts instructions may differ. */
@@ -133,20 +133,20 @@ void lockstep_run(const lockstep_request *request, const image *im, lockstep_rep
 /* Runs the firmware on a tape's readings. Its orders must equal the tape's, except for instruction counts. */
 void lockstep_replay(const lockstep_request *request, const char *file, lockstep_report *report);
 
-/* Prints the report. `im` is the plant's, or NULL for a tape. */
+/* Prints the report. `im` is the plant's image, or NULL after a replay of a tape. */
 void pil_print(FILE *out, const lockstep_request *request, const image *im,
                const lockstep_report *r);
 
-/* Prints a tape as a table: a row for each input and output of the firmware. Its columns:
+/* Prints a tape as a table with these columns:
  *
- *   the event's time, by its stamp, and the time when the firmware received or sent it, s since the plant's time 0.
- *   the kind: edge, sample, output, note; cut: the watchdog has cut the outputs.
- *   the channel of that kind, from 1, and its signal.
- *   value and unit.
- *   a sample's quality: good, saturated, disconnected.
+ *   time: when the event occurred, s since the plant's time 0.
+ *   heard: when the firmware received or sent it, s since the plant's time 0.
+ *   kind: edge, sample, output, note, reset, or cut (the watchdog has cut the outputs).
+ *   channel (from 1 in each kind), signal, value, unit. An edge has no value.
+ *   status: good, saturated or disconnected for a sample; watchdog or other for a reset.
  *
- * An edge has no value. Outputs and notes have a row at each change. `csv` NULL or "-": standard output. Returns false,
- * and reports the reason, if reading or writing is incomplete. */
+ * An output or note has a row only when it changes. If `csv` is NULL or "-", prints to standard output. Returns false
+ * (reported) if reading or writing is incomplete. */
 bool taped_show(const char *name, const char *csv);
 
 #endif

@@ -229,7 +229,7 @@ bool recorded_close(recorded *r) {
 
 #define TURN_RAD 6.283185307179586477
 #define TURN_DEG 360.0
-#define NEARLY 1e-6 /* ticks: because of round-off, an instant counts as reached this much early */
+#define NEARLY 1e-6 /* ticks: tolerance for round-off when times are compared */
 
 bool plant_read_places(const char *text, plant_request *to) {
     unsigned count = 0;
@@ -449,8 +449,7 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* Does the quantity enter the edge's range in this step? *level gets the end of the range that it meets first. An
- * angle's range repeats every turn: then *level is the next such end in the direction of motion. */
+/* Does the quantity enter the edge's range in this step? *level gets the value at which it enters the range. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;
@@ -553,7 +552,7 @@ bool plant_advance(plant *p, double until_ticks) {
     return true;
 }
 
-/* *there: the number of readings that are due. Returns how many are delivered: at most `most`; the others are lost. */
+/* *there gets the number of due readings. Returns how many of them are delivered: at most `most`. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
     while (*there < q->count && plant_has_reached(p, q->event[*there].at_ticks)) {
@@ -565,7 +564,7 @@ static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) 
 
 static void shift(plant_queue *q, unsigned gone) {
     q->count -= gone;
-    if (gone > 0) { /* event may be NULL if the queue is empty */
+    if (gone > 0) { /* memmove() must not get NULL, and an empty queue may have no array */
         memmove(q->event, q->event + gone, q->count * sizeof q->event[0]);
     }
 }

@@ -1,8 +1,8 @@
 /* plant.h: a scene as a controller's hardware. The scene runs in double, with sensors and actuators around it. Time is
- * in ticks of the controller's timer since the plant's start. A quantity gives an edge if it is on different sides of
- * the level at the two ends of a step. The edge's time comes from the cubic through values and rates at these ends. If
- * the quantity crosses the level and returns within a step, there is no edge: the cubic cannot distinguish this from an
- * impact. A sample is taken at the first step end at or after its instant. Outputs change only at ends of steps. */
+ * in ticks of the controller's timer since the plant's start. An edge occurs in a step that begins with a quantity
+ * outside its signal's range, and ends with the quantity inside or beyond the range. The time of the edge comes from
+ * the cubic through values and rates at both ends of the step. A sample is taken at the first step end at or after its
+ * instant. Outputs change only at ends of steps. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 
@@ -20,7 +20,7 @@ typedef struct bound {
     unsigned channel;
     int index;      /* index of the scene's input, output or state component (angles come first) */
     bool of_output; /* reads an output of the scene, not a component */
-    int rate;       /* component of the rate, or -1 */
+    int rate;       /* index of the state component that is this quantity's rate, or -1 */
     bool turns;     /* an angle: the reading repeats every turn */
 } bound;
 
@@ -54,13 +54,12 @@ typedef struct recorded {
     uint64_t every; /* steps between rows */
 } recorded;
 
-/* Records a row every every_s seconds, which must be a multiple of the step. If every_s < 0: every millisecond, or each
- * step if a millisecond is no multiple of it. If `name` is NULL: nothing. Returns false after an error (reported). */
+/* Records a row every every_s seconds, which must be a multiple of the step. If every_s < 0, uses 1 ms, or
+ * the step if 1 ms is not a multiple of it. If `name` is NULL, records nothing. Returns false (reported) on error. */
 bool recorded_open(recorded *r, const char *name, const image *im, double every_s);
 /* Returns false (reported) if the file is incomplete. */
 bool recorded_close(recorded *r);
 
-/* Settings outside the scene. */
 typedef struct plant_request {
     double place[WH_SIGNALS_MAX]; /* position error of an edge's sensor; deg for angles, else SI */
     unsigned places;
@@ -143,10 +142,10 @@ uint32_t plant_ticks(const plant *p); /* the present value of the controller's t
 /* Has the plant reached this time, up to round-off? */
 bool plant_has_reached(const plant *p, double ticks);
 
-/* Orders sent now take effect `late_ticks` later, or with the next orders if these come first. */
+/* The orders take effect after late_ticks, or at the next call of plant_order() if that is earlier. */
 void plant_order(plant *p, const wh_orders *orders, double late_ticks);
 
-/* Runs to the first step end at or after until_ticks, or to a reset. Returns false if the scene diverged (status). */
+/* Runs to the first step end at or after until_ticks, or to a reset. Returns false if a step fails (p->status). */
 bool plant_advance(plant *p, double until_ticks);
 
 /* Restarts the timer, and drops pending readings. */
