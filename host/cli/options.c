@@ -346,7 +346,6 @@ static bool take(common_option which, const char *command, const char *value, co
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
     overrides *c = &to->changes;
     const char *word = option_rows[which].word;
-    /* only these commands determine the ranges of values that fixed point needs */
     const bool knows_fixed = strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
                              strcmp(command, "trust") == 0;
     int chosen;
