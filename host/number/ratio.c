@@ -1,4 +1,3 @@
-/* ratio.c: fractions of whole numbers, and the wide integers that compare them. */
 #include "host/number/ratio.h"
 
 #include <math.h>
@@ -25,7 +24,7 @@ uint128 uint128_minus(uint128 a, uint128 b) {
 uint128 uint128_times(uint128 a, uint128 b) {
     const uint64_t half = UINT32_MAX;
     const uint64_t low = (a.low & half) * (b.low & half);
-    /* at most (2^32 - 1)^2 + 2^32, which fits */
+    /* this sum and the next are below 2^64 */
     const uint64_t cross = (a.low >> 32) * (b.low & half) + (low >> 32);
     const uint64_t other = (a.low & half) * (b.low >> 32) + (cross & half);
     const uint64_t high = (a.low >> 32) * (b.low >> 32) + (cross >> 32) + (other >> 32);
@@ -59,7 +58,6 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
     uint128 left = {0, 0};
     uint128 quotient = {0, 0};
     for (int bit = 127; bit >= 0; bit--) {
-        /* if true, the shifted number is 2^128 or more, and so above `b` */
         const bool carried = left.high >> 63 != 0;
         left = uint128_plus(uint128_left(left, 1), uint128_of(uint128_right(a, bit).low & 1U));
         if (carried || !uint128_below(left, b)) {
@@ -83,8 +81,8 @@ typedef struct end {
     uint128 of, in;
 } end;
 
-/* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete Mathematics, section
- * 4.5). Subtracts the whole part of `low` and takes reciprocals, until a whole number lies between the ends. */
+/* The fraction of least denominator strictly between two ends, by continued fractions (Graham, Knuth & Patashnik,
+ * Concrete Mathematics, section 4.5). */
 static whole_ratio between(end low, end high) {
     /* p / q: the last convergent; p_before / q_before: the one before it */
     uint128 p = uint128_of(1);
@@ -116,10 +114,9 @@ static whole_ratio between(end low, end high) {
 /* Returns the simplest fraction that differs from `value` by less than two units in the last of its 53 bits. */
 static whole_ratio simplest(double value) {
     int exponent;
-    /* the mantissa is below one and has 53 bits after the point */
     const double mantissa = number_split(value, &exponent);
     const uint64_t digits = (uint64_t)number_scaled(mantissa, MANTISSA);
-    const int scale = exponent - MANTISSA; /* value = digits * 2^scale, digits from 2^52 on */
+    const int scale = exponent - MANTISSA; /* value = digits * 2^scale */
     const uint64_t off = 2;
     const int up = scale > 0 ? scale : 0;
     const uint128 down = uint128_left(uint128_of(1), scale < 0 ? -scale : 0);
@@ -136,8 +133,8 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* Finds the decimal with the fewest digits within a relative error of 2^-52, and sets *said to 10^digits. Returns false
- * if the decimal has more than 15 digits, or if its numerator or denominator has more than 60 bits. */
+/* Finds the shortest decimal whose relative error is at most 2^-52. *said: 10 to the power of its number of digits.
+ * Returns false if it has more than 15 digits, or does not fit into a whole_ratio. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
@@ -223,14 +220,14 @@ double ratio_times(uint64_t count, whole_ratio each) {
     int shift = 0;
     while (
         !uint128_is_zero(of) &&
-        /* 127 bits in `of` give a quotient of at least 67 bits, because a denominator has at most 60 */
+        /* `of` has fewer than 127 bits; 127 give a quotient of at least 67 bits, more than the 53 of a double */
         of.high >> 62 == 0) {
         of = uint128_left(of, 1);
         shift++;
     }
     uint128 rest;
     uint128 quotient = uint128_over(of, uint128_of(each.denominator), &rest);
-    /* an inexact quotient gets the lowest bit 1, so that only the conversion to double rounds */
+    /* sticky bit: without it, the conversion to double would treat a value just above a tie as the tie */
     bool below = !uint128_is_zero(rest);
     while (quotient.high != 0 || quotient.low >> 63 != 0) {
         below = below || (quotient.low & 1U) != 0;

@@ -36,16 +36,16 @@ typedef struct whole_ratio {
 } whole_ratio;
 
 /* Returns the fraction that `value` probably was before a conversion of units and a rounding to double: 11/10000 for
- * 0.0011000000000000001, and 1/44100 for the double nearest to 1/44100. Two candidates have a relative error below
- * 2^-51: the shortest decimal (at most 15 digits, and 60 bits in numerator and denominator), and the simplest fraction.
- * The one with fewer digits is chosen. Values <= 0 give 0. Others are limited to RATIO_LEAST and RATIO_MOST. */
+ * 0.0011000000000000001, and 1/44100 for the double nearest to 1/44100. There are two candidates: the fraction of
+ * least denominator with a relative error below 2^-51, and the shortest decimal with an error of at most 2^-52. The
+ * decimal is chosen if it has at most 15 digits, and no more than the product of the fraction's numerator and
+ * denominator. Values <= 0 give 0. Larger values are limited to RATIO_LEAST and RATIO_MOST. */
 whole_ratio ratio_of(double value);
 
 /* Sets *count to whole / part, rounded to the nearest, ties down. Returns false above 2^63. `part` must not be 0. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
 
-/* *count: the number of steps in `each_s`. Returns false if the quotient is not whole within 1e-6 (relative), or is
- * 0. */
+/* *count: the number of steps in `each_s`. Returns false if it is 0, or not whole within a relative error of 1e-6. */
 bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
 
 /* *count: the number of the first step that ends at or after from_s >= 0, up to round-off. Returns false above 2^63. */

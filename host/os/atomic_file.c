@@ -73,7 +73,7 @@ static FILE *open_part(const char *name, bool empties) {
     }
     FILE *old = there.st_mode != 0 ? open_alone(name, false) : NULL;
     if (old == NULL ? there.st_mode != 0 : fclose(old) != 0) {
-        return NULL; /* another process, such as a sweep, writes it in place */
+        return NULL; /* another process is writing `name` in place */
     }
     char *part = part_of(name);
     FILE *file = open_alone(part, true);

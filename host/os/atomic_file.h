@@ -15,14 +15,13 @@ FILE *atomic_file_open_in_place(const char *name);
  * stays open: host/whirl.c checks it at the program's end. Returns false on failure (reported). */
 bool atomic_file_close(FILE *file, const char *name, bool keep);
 
-/* Writes a whole file, as printf() would print it, by atomic_file_open() and atomic_file_close(). False: reported. */
+/* Opens, writes and closes a file, with the text that printf() would print. Returns false on failure (reported). */
 bool atomic_file_print(const char *name, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Is an open file neither a device nor a pipe? */
 bool atomic_file_is_regular(FILE *file);
 
-/* Would atomic_file_open() succeed? If not, reports the reason. Changes nothing. NULL and "-" are always possible. */
+/* Returns true if atomic_file_open() would succeed, or if `name` is NULL; else reports why. Keeps the file's text. */
 bool atomic_file_can(const char *name);
 
 /* Reports that the file cannot be written, with the reason from errno. */

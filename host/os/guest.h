@@ -11,7 +11,7 @@
 
 #define GUEST_LINE_BYTES 4096
 
-/* An instruction in QEMU takes 2^GUEST_SHIFT = 64 ns of guest time. A timer of 25 MHz (40 ns a count) resolves it. */
+/* An instruction in QEMU takes 2^GUEST_SHIFT = 64 ns of guest time: more than one count of a 25 MHz timer (40 ns). */
 #define GUEST_SHIFT 6
 
 /* Exit status if a program cannot be run, as in shells. */
@@ -23,7 +23,7 @@ typedef struct guest_request {
     const char *image; /* an ELF file, for Arm or for this machine */
     const char *board; /* QEMU's machine */
     bool mute;         /* hide the guest's console */
-    double patience_s; /* longest silence, and longest time to exit */
+    double patience_s; /* longest wait for a message, and for the exit */
 } guest_request;
 
 typedef struct guest {
@@ -53,8 +53,8 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
 /* Starts the guest. Returns false (reported) if the image cannot be run. Call guest_end() in any case. */
 bool guest_start(guest *g, const guest_request *request);
 
+/* Both return GUEST_FRAME on success. */
 guest_heard guest_receive(guest *g, wh_frame *frame);
-/* Returns GUEST_FRAME on success. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count);
 
 typedef struct guest_end_status {
@@ -64,7 +64,7 @@ typedef struct guest_end_status {
     const char *signal_name;
 } guest_end_status;
 
-/* Closes the line, waits for patience_s, then kills the process if it still runs. Repeated calls do nothing. */
+/* Closes the pipes, but not request.line. Kills the process if it still runs after patience_s. May be repeated. */
 guest_end_status guest_end(guest *g);
 
 #endif

@@ -16,8 +16,8 @@ void interrupts_catch(void);
 /* Like interrupts_catch(), but an interrupt, or the loss of the terminal, also ends a wait for another program. */
 void interrupts_catch_waiting(void);
 
-/* Call this at the program's start. A write beyond `ulimit -f` then fails like on a full disk, and an interrupt ends
- * the program with a message until interrupts are caught. */
+/* Call this at the program's start. A write beyond `ulimit -f` then fails like on a full disk. Until
+ * interrupts_catch(), an interrupt ends the program with a message. */
 void system_begin(void);
 
 /* Seconds of a clock that never goes back. */
@@ -26,7 +26,7 @@ double system_now_s(void);
 /* Makes a temporary folder; the XXXXXX at the end of `name` is replaced. Returns false, with errno, after an error. */
 bool system_scratch_folder(char *name);
 
-/* Locks the file until it is closed. Returns false only if another program has locked it: locks may not exist. */
+/* Locks the file until it is closed. Returns false if another program has locked it, but true after other errors. */
 bool system_lock(FILE *file);
 
 void system_set_mode(FILE *file, unsigned mode);

@@ -245,7 +245,7 @@ static bool find_inputs(const fault_case *f, const image *im) {
     return true;
 }
 
-/* Finds the fault's note in orders.output[], after the outputs. */
+/* Sets f->note_at, the note's index in orders.output[]: notes follow the outputs there. */
 static bool find_note(fault_case *f, const wh_hello *hello) {
     const unsigned outputs = hello_channels(hello, WH_SIGNAL_OUTPUT);
     const wh_signal *s;
@@ -327,8 +327,7 @@ static void change(fault_plan *plan, fault_case *f, double time_s, bool begins) 
 
 /* --- the processor --------------------------------------------------------------------------------------------*/
 
-/* After a reset: drops delayed readings, zeroes outputs, and marks the fault that caused the reset. Then tells the plant
- * the next reset in advance, because resets happen between messages. */
+/* Handles a reset that has happened. Then sets the next one in advance: it may come between two messages. */
 static void look_for_resets(fault_plan *plan) {
     plant_resets *r = &plan->plant->reset;
     const bool was_reset = r->count != plan->resets;
@@ -500,7 +499,7 @@ tap fault_tap(fault_plan *plan) {
 const fault_row fault_rows[FAULT_KINDS] = {FAULT_ROWS(FAULT_ROW)};
 #undef FAULT_ROW
 
-/* The reading position in one fault's words. */
+/* The text of one fault, and the reading position in it. */
 typedef struct words_of_fault {
     const char *begin;
     const char *at;

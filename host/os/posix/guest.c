@@ -19,7 +19,7 @@
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
 
-/* Is this an ELF file? If not, reports it. The machine is at byte 18, in the file's byte order. */
+/* Returns false (reported) if the file is not in ELF. *arm: is it for Arm? */
 static bool look_at_image(const char *name, bool *arm) {
     enum { MACHINE = 18, ARM = 40, LITTLE = 1 };
     unsigned char head[MACHINE + 2];
@@ -60,7 +60,7 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
     return machine[0] != '\0';
 }
 
-/* Moves the pipes to DOWN and UP, by way of free high numbers. All other descriptors close on exec. */
+/* Moves the pipes to DOWN and UP. Copies them first, because `up` may have the number DOWN. */
 static bool place_line(int down, int up) {
     const int high_down = fcntl(down, F_DUPFD_CLOEXEC, ABOVE);
     const int high_up = fcntl(up, F_DUPFD_CLOEXEC, ABOVE);
@@ -69,7 +69,7 @@ static bool place_line(int down, int up) {
            dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
 }
 
-/* Gives the guest a process group: Ctrl-C reaches only Whirl, which ends the guest. Linux kills it if Whirl dies. */
+/* Puts the guest into its own process group, so that Ctrl-C reaches only Whirl. Linux kills the guest if Whirl ends. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
@@ -152,7 +152,7 @@ bool guest_start(guest *g, const guest_request *request) {
     return true;
 }
 
-/* Waits in short intervals, so that an interrupt from before the wait is noticed. */
+/* Waits in short intervals, because a signal just before poll() does not end poll(). */
 static guest_heard wait_to_read(const guest *g, double end_s) {
     struct pollfd line = {.fd = g->up, .events = POLLIN};
     do {
@@ -191,7 +191,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* Waits while a serial line is full. A pipe is never full: it has space for a frame, and guest and host take turns. */
+/* If a serial line is full, waits until it has space. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {

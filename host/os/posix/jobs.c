@@ -14,7 +14,7 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 
-#define AHEAD 8U /* points per worker in the window (pool.window) */
+#define AHEAD 8U /* pool.window, in points per worker */
 #define PAUSE_MS 50
 #define ASK_US 200000
 
@@ -44,10 +44,10 @@ typedef struct pool {
     const jobs *jobs;
     worker *workers;
     int started;
-    /* The pipe of points' numbers. The parent keeps its read end open: writes must work if all workers have ended. */
+    /* The pipe of points' numbers. The parent keeps its read end open, so that writes never raise SIGPIPE. */
     int tickets[2];
     slot *slots;     /* [window]; a point uses slots[point % window] */
-    uint64_t window; /* at most this number of points is sent, but not delivered */
+    uint64_t window; /* largest number of points that are sent and not yet delivered */
     uint64_t sent;
     uint64_t delivered; /* all points below this are delivered */
 } pool;
@@ -84,7 +84,7 @@ static void work(const jobs *j, int tickets, int results) {
         FILE *row = alloc_text(&text[0], &length[0]);
         FILE *reason = alloc_text(&text[1], &length[1]);
         answer a;
-        memset(&a, 0, sizeof a); /* clears the padding, too, because it goes through a pipe */
+        memset(&a, 0, sizeof a); /* also clears the padding, which is sent */
         a.point = point;
         a.good = j->work(j->context, point, row, reason);
         alloc_text_end(row);
@@ -119,7 +119,7 @@ static bool start_worker(pool *p) {
     sigprocmask(SIG_BLOCK, &both, &usual);
     const pid_t pid = fork();
     if (pid == 0) {
-        signal(SIGINT, SIG_IGN); /* the parent decides when to end */
+        signal(SIGINT, SIG_IGN); /* on Ctrl-C, the parent ends its workers */
         signal(SIGTERM, SIG_DFL);
         sigaction(SIGALRM,
                   &(struct sigaction){.sa_handler = ask_for_parent, .sa_flags = SA_RESTART}, NULL);
@@ -227,7 +227,7 @@ static jobs_result attend(pool *p) {
         const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
         for (int i = 0; i < p->started && heard > 0; i++) {
             if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
-                result = JOBS_WORKER_LOST; /* too early: the pipe of numbers is still open */
+                result = JOBS_WORKER_LOST;
             }
         }
         if (!deliver(p) || !j->pause(j->context, p->delivered)) {

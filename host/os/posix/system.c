@@ -18,7 +18,7 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-/* The handler before interrupts_catch(). It may end the program, because no command has anything to finish yet. */
+/* The signal handler until interrupts_catch(). */
 static void end_at_once(int signal_number) {
     static const char said[] = "whirl: interrupted\n";
     (void)signal_number;
