@@ -27,7 +27,7 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
-/* The arguments that all stages of a step share. The compiler keeps such scalars in registers, and folds constants. */
+/* The arguments that all stages of a step share. */
 typedef struct wh_stepping {
     const wh_tableau *by; /* the method */
     const wh_state *state;
@@ -200,8 +200,8 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
 }
 
 /* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns
- * WH_E_ARGUMENT, with the state unchanged, if the method cannot step such a system. (Semi-implicit Euler moves rates
- * before positions, which a first-order system does not distinguish.) Otherwise returns as wh_step_second() does. */
+ * WH_E_ARGUMENT, with the state unchanged, if the method is only for second-order systems. Otherwise returns as
+ * wh_step_second() does. */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_two_part h,
                                   wh_state *state) {

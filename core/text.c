@@ -149,7 +149,7 @@ static void multiply_by_ten(uint8_t *byte) {
     }
 }
 
-/* Rounds to the nearest whole number, ties to even: adds one half, or a little less if the whole part is even. */
+/* Rounds to a whole number, ties to even: adds 1/2 if the whole part is odd, otherwise 1/2 - 2^-160. */
 static void round_to_whole(uint8_t *byte) {
     unsigned carry = byte[FRACTION_BYTES] & 1U;
     for (unsigned i = 0; i < BYTES; i++) {
@@ -159,8 +159,8 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* Copies the mantissa's bits into byte[BYTES], initially zero. Returns false if a double exceeds WHOLE_BYTES. Drops
- * bits below 2^-160. Only doubles below 2^-107 have such bits, and these doubles round to 0 at 18 decimals. */
+/* Copies the mantissa's bits into byte[BYTES], initially zero. Returns false if the number is 2^128 or more. Drops
+ * bits below 2^-160: only doubles below 2^-107 have them, and 18 decimals of such doubles are 0. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

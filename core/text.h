@@ -40,7 +40,7 @@ void wh_text_start(wh_text *text, char *bytes, unsigned size);
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
 
-/* Returns item `number` of a WH_WORD_LIST such as WH_WORDS("one") WH_WORDS("two"); beyond the end, the last item. */
+/* Returns item `number`, or else the last, of a WH_WORD_LIST such as WH_WORDS("one") WH_WORDS("two"). */
 #define WH_WORDS(words) words "\0"
 const char *wh_words_item(const char *list, unsigned number);
 

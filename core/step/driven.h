@@ -14,7 +14,7 @@
 #define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
-/* Indices of an input and of its rate in state->input[], and of the components in state->real[] that they set. */
+/* `input` and `rate` are indices in state->input[]. value_at and rate_at are indices in state->real[]. */
 typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;
@@ -22,14 +22,14 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* Restored if the step is refused: the driven components, and the ledger's stored initial levels and corrections. */
+/* Numbers that wh_driven_end() restores if the step is refused. */
 typedef struct wh_driven_kept {
     wh_real real[2 * WH_COORDS];
     wh_real books[2 * WH_ACCOUNTS_MAX];
     bool booked;
 } wh_driven_kept;
 
-/* Stores the change of the levels since `before` as a correction, because a caller has changed the state. */
+/* Enters each account's level minus before[] as a correction in the ledger. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
                                      const wh_real *before) {
     wh_real *start = state->ledger + 2U * form->entries;
@@ -45,8 +45,8 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
     }
 }
 
-/* Call this before a step. It copies the inputs to the components. If `form` is not NULL, the ledger counts the change
- * of the accounts as a correction. */
+/* Call this before a step. It copies the inputs to the components. If `form` is not NULL, it
+ * enters the resulting changes of the accounts' levels in the ledger as corrections. */
 WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
                                wh_driven_kept *kept, wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -73,8 +73,8 @@ WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_
     }
 }
 
-/* Call this after a step. It copies the components to the inputs, or restores components and ledger after a refused
- * step. Returns the step's status. */
+/* Call this after a step. If `status` is WH_OK, it copies the components to the inputs. Otherwise it restores the
+ * components and the ledger. Returns `status`. */
 WH_INLINE wh_status wh_driven_end(const wh_driven *drive, unsigned count,
                                   const wh_ledger_form *form, const wh_driven_kept *kept,
                                   wh_status status, wh_state *state) {

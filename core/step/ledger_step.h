@@ -19,7 +19,7 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Returns the stage's weight in the method's quadrature. Unlike by->rates[stage], the loop needs no table in memory. */
+/* Returns the stage's weight in the method's quadrature, without a table in memory. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
@@ -73,8 +73,7 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Call this before a step. If inputs have changed since the last step, it applies the changes one after the other,
- * and enters the energy's change by each. */
+/* Call this before a step. It enters the energy's change by each input that has changed since the last step. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);

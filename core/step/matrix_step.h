@@ -12,7 +12,7 @@
 /* Returns as wh_all_believable(). Without an FPU, compares bytes first: ten times as fast on an ATmega328P. */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
-    /* the upper byte of 2^39. If all upper bytes are smaller, the sum of the numbers is below WH_ABSURD */
+    /* the upper byte of 2^39: the sum of n numbers below 2^39 is below WH_ABSURD */
     static const uint8_t large = 0x53;
     unsigned i = 0;
     for (; i < n; i++) {
@@ -43,9 +43,8 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
     return WH_OK;
 }
 
-/* Returns value + increment + *carry; *carry becomes the round-off of both sums. The given *carry includes the
- * increment's error from rounded constants, which is less than half a unit of the increment's last place. wh_sum()
- * would lose this error: in 1e6 steps of an oscillator, that adds up to 2.5e-5 rad. This sum loses 5e-8 rad. */
+/* Returns value + increment + *carry; *carry becomes the round-off of both sums. wh_sum() would lose the round-off
+ * of increment + *carry: 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;
@@ -60,7 +59,7 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
  *
  *      angles             the mean rate of each angle over the step
  *      reals              the value of each real after the step; if compensated, its change
- *      reals again        only if compensated, for float: what the change lacks because its constants are rounded
+ *      reals again        only in float, if compensated: the correction of each change for its rounded constants
  *
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
  * state unchanged. */

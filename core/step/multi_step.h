@@ -6,15 +6,13 @@
 #include "../scene.h"
 #include "unroll.h"
 
-/* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers: up to 5 % fewer
- * instructions in a small scene. With at most one wave, gcse is off: it occupies more registers than it frees. */
+/* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers. */
 #if defined(WH_MULTI_STEP) && WH_MULTI_STEP && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* tree-ter is off for one coordinate: it moves an expression next to the operation that uses it. This operation
- * must then wait for the result, which costs up to 4 % of the cycles of a Cortex-M4F. */
+/* tree-ter would move an expression next to the operation that uses it, which then has to wait for the result. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif

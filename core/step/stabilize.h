@@ -1,22 +1,19 @@
 /* stabilize.h: energy stabilization by small corrections along the rates, for long runs, in which the method's error or
  * round-off would accumulate. Part of ledger_step.h.
  *
- * The drift D is the energy's change minus its entries in the ledger (ledger.h). The entry of the corrections is not
- * subtracted, so D is the error that they have not yet removed. Scaling all rates by 1 + s changes the energy by s P,
- * if the kinetic energy is a quadratic form of the rates. P is sum q_i' p_i, with the momenta p_i. Directions, zero
- * rates and ratios of momenta do not change. So each step sets
+ * The drift D is the energy's change minus all its entries in the ledger (ledger.h) except that of the corrections: the
+ * error that remains. P is sum q_i' p_i, with the momenta p_i. If the kinetic energy is a quadratic form of the rates,
+ * scaling all rates by 1 + s changes the energy by s P. So each step scales them with
  *
  *      s = -D / (1024 max P),     at most 2^-20 in size.
  *
  * This has the form x' = f(x) - g F(x) D(x), with a gain g and the correction's direction F, here along the rates
  * (Ascher, Chin & Reich, Stabilization of DAEs and invariant manifolds, Numerische Mathematik 67, 1994). A step
- * corrects only a thousandth of D, because in float D is mostly round-off, which a thousand steps average. Compensated
- * sums keep the small corrections. max P is the largest P so far. With the present P, s would grow when an
- * oscillation reverses, and slow motions of other coordinates would get the whole correction.
+ * corrects only a thousandth of D, because in float D is mostly round-off, which a thousand steps average. max P is the
+ * largest P so far: with the present P, s would grow whenever an oscillation reverses.
  *
- * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction
- * has an entry in the ledger. The method is for motions without drive and damping: in others D includes the quadrature
- * error of the ledger, which is not an error of the motion. */
+ * A correction changes all motions, because D does not show which of them lost the energy. The method is for motions
+ * without drive and damping. In others, D includes the quadrature error of the ledger. */
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
 

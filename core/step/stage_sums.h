@@ -15,13 +15,12 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* Does the statement `stage(s);` for all stages except stage 0. The loop must be unrolled: otherwise the code would
- * read the shares, and multiply by them, at run time. A compiler without an unrolling pragma gets a line per stage. */
+/* Does the statement `stage(s);` for all stages except stage 0, unrolled: the shares are then constants. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES; s++) { /* gcc spills more with (by)->stages */ \
+        for (unsigned s = 1; s < WH_STAGES; s++) { /* (by)->stages would spill registers */ \
             if (s >= (by)->stages) { \
                 break; \
             } \
@@ -83,7 +82,7 @@ WH_INLINE bool wh_begins_away(const wh_tableau *by) {
 /* True if all stages of the method are at the step's begin. */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* Returns the change of position i from the begin to a stage, by .places. `rate` is position i's rate at the begin. */
+/* Returns the change of position i from the begin to a stage, by .places. `rate` is the rate of i at the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -91,14 +90,13 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
-/* True if a stage and the stage before it have equal weights in .rates and, if has_positions, in .positions. The
- * derivatives at such stages are added first and multiplied once. */
+/* True if a stage and the stage before it have equal weights in .rates and, if has_positions, in .positions. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
     return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }
 
-/* Store the result `now` of a stage in given[], and in alike[], the sums of stages with equal weights. */
+/* Stores a stage's result now[] in given[]. Sums results of consecutive stages with equal weights in alike[]. */
 WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_positions, unsigned n,
                               const wh_real *first, const wh_real *now, wh_real (*given)[WH_COORDS],
                               wh_real (*alike)[WH_COORDS]) {

@@ -27,8 +27,7 @@
 #include "../number/sincos_small.h"
 #include "../step.h"
 
-/* tree-pre is off: with it gcc computes the operands of some branches before the branch (1 % more instructions, up to 3
- * % more cycles on a Cortex-M4F). In double, on a PC, it saves instructions. */
+/* tree-pre would compute the operands of some branches before the branch: up to 3 % more cycles on a Cortex-M4F. */
 #if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
 #pragma GCC optimize("no-tree-pre")
 #endif
@@ -38,8 +37,7 @@
 #define WH_WAVES 256
 #endif
 
-/* On a PC, rename-registers saves copies: 1 to 6 % fewer instructions. With at most one wave, no-gcse loads constants
- * where they are used, which frees registers: 1 % fewer instructions (2 % more if the list has no division). */
+/* On a PC, rename-registers saves copies. With at most one wave, no-gcse frees registers. */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #pragma GCC optimize("rename-registers")
 #if WH_WAVES <= 1
@@ -47,8 +45,7 @@
 #endif
 #endif
 
-/* If 1, a step computes its rotations before its first accelerations, so that a call for large ones spills few
- * registers. But rotations then occupy registers during the accelerations: 3 % more instructions in double on a PC. */
+/* If 1, a step computes its rotations before its first accelerations. In double on a PC: 3 % more instructions. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
 /* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the phases. */
@@ -60,7 +57,7 @@ typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh
 /* Waves: the angles whose sine and cosine an operation list takes. Each is a sum of whole multiples of turn angles. */
 typedef struct wh_waves {
     const void *model;
-    /* Computes parts[count], the sine and cosine of each wave, from the phases of the angles. */
+    /* Computes parts[i], the sine and the cosine of each wave i, from phase[] of the turn angles. */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
     /* Computes result[count], the waves' rates times `scale`, from rate[] of the angles. Also used for shear angles. */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
@@ -75,10 +72,10 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    /* The pairs at the begin. Each number has two parts; if `precise`, wh_turning_to() adds rotations to the second. */
+    /* the pairs at the begin. If `precise`, wh_turning_to() adds its increments to .sine_rest and .cosine_rest */
     wh_sine_parts parts[WH_WAVES];
-    wh_wave at[WH_WAVES]; /* the pairs at the begin, rotated by multiples of d */
-    /* if `precise`, the increment of the last rotation; otherwise the pair before that rotation */
+    wh_wave at[WH_WAVES]; /* the pairs after `turns` rotations by d, the rotation at stage 1 */
+    /* after a rotation: its increment if `precise`, otherwise the pair before it */
     wh_wave way[WH_WAVES];
     wh_real bend[WH_WAVES]; /* 2 (cos d - 1) if `precise`, otherwise 2 cos d */
     unsigned turns;         /* number of rotations done */
@@ -103,8 +100,7 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. If
- * n > 1, they may be calls, because the code then needs a stack frame in any case. */
+/* Sets turn[i] to the sine, and the cosine minus 1, of d[i]. The sum of all |d[i]| exceeds WH_SINCOS_SMALL. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -113,7 +109,7 @@ WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     }
 }
 
-/* Computes the increments of the first rotation, turn[waves->count], from the rates of the angles. */
+/* Sets turn[i] to the sine, and the cosine minus 1, of the first rotation of wave i. rate[] has the angles' rates. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES];
@@ -151,7 +147,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Rotates until `turns` rotations are done. If `precise`, sums the increments first, to round the pair only once. */
+/* Rotates until `turns` rotations are done. If `precise`, sums the increments before it rounds the pairs. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES; k++) {
@@ -190,8 +186,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* Computes the shear angles at a stage, in units of h / parts. gained[j][angle] is the change of the angle's rate from
- * the begin to stage j + 1. Returns false if the shear angles are zero at this stage. */
+/* Computes shear[i], the shear angle of turn angle i divided by h / of->parts. gained[j][i] is how much that angle's
+ * rate grows from the begin to stage j + 1. Returns false if all shear angles of this stage are zero. */
 WH_INLINE bool wh_turning_shears(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                  unsigned angles, wh_real *shear) {
     bool shears = false;
@@ -282,7 +278,7 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* Computes the phases of the angles at a stage for the ledger, as step.h does. */
+/* Computes stage_phase[to->angles], the phases at a stage, for the ledger. */
 WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh_real *rate,
                                  wh_given rates, wh_given accels, wh_phase *stage_phase) {
     const wh_shares *of = &to->by->stage[stage];
@@ -298,8 +294,7 @@ WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh
     }
 }
 
-/* Arguments and results of an operation list in one struct, so that a call of the list leaves other variables in
- * registers. */
+/* Arguments and results of an operation list. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
     wh_real at[WH_COORDS];    /* linear positions, or reals */
@@ -365,7 +360,7 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* Steps by to->h = h.high. If stage_phase is not NULL, stage_phase[to->angles] has the phases during each accel(). */
+/* to->h is h.high. If stage_phase is not NULL, it gets the phases [to->angles] of each stage before accel(). */
 WH_INLINE wh_status wh_turn_second_phases(const void *model, wh_turned_accel_fn *accel,
                                           const wh_waves *waves, const wh_stepping *to,
                                           wh_two_part h, wh_phase *stage_phase, wh_state *state) {

@@ -9,8 +9,7 @@
 #include "stage_sums.h"
 
 /* Moves *angle by `steps` phase units, |steps| < WH_PHASE_STEP_MAX. Rounds to nearest, because truncation would slow
- * every angle down by half a unit per step. If compensated, also adds *carry, and sets *carry to the new round-off.
- * Float adds it to the fraction of `steps`, because a large `steps` would absorb it. */
+ * every angle down by half a unit per step. If compensated, also adds *carry, and sets *carry to the new round-off. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -20,14 +19,14 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
         const float left = (steps - (float)whole) + *carry;
         const int32_t more = wh_whole(left);
         *carry = left - (float)more;
-        whole += more; /* no overflow: a large `steps` is whole, and then `more` is 0 */
+        whole += more;
     }
     /* A turn count beyond 2^31 wraps, without undefined behaviour. */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
 #endif
 }
 
-/* The interpreter redefines this to collect `lost`, the round-off of turn angle i in phase units; h is in s. */
+/* The interpreter redefines this. `lost` is the round-off in the move of angle i, in phase units. h is the step, s. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
@@ -129,8 +128,8 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
 }
 
 /* Sets trial->angle[i] to angle i moved by move[i] * rad_a_move. If compensated, adds trial->carry[i] and sets it to
- * the new round-off. Returns the first angle whose move is half a turn or more, or NaN. If there is none, returns
- * `angles`. Such large moves are rare, so a single comparison of the sum of all moves comes first. */
+ * the new round-off. Returns the first angle whose move is NaN, or half a turn or more. If there is none, returns
+ * `angles`. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -164,8 +163,7 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
     return angles;
 }
 
-/* Returns value + by * factor, compensated as by wh_sum(). `product` is by.high * factor. If compensated, the product
- * by.low * factor is added to *carry, because it is too small to change `product`. */
+/* Returns value + by * factor, compensated as by wh_sum(). `product` is by.high * factor. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -181,18 +179,14 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns the correction of the rounded h^2 / by->parts, in s^2. In the change of a position, the caller multiplies the
- * correction by the sum of accelerations. `part.low` is the round-off of h / by->parts. `stages` is necessary because
- * the stages use h.high alone: their distances from the begin have the relative error -h.low / h. Without `stages`, the
- * relative change of the energy would be the same in every step: 5e-13 for a pendulum and a step of 1 ms. With it, this
- * drift vanishes if the mass matrix is constant; otherwise a part of it remains (docs/dev/numerics.md). */
+/* Returns the correction of the rounded h^2 / by->parts, in s^2. `part.low` is the round-off of h / by->parts. `stages`
+ * is necessary because the stages use h.high alone: without it, the energy would drift (docs/dev/numerics.md). */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* wh_square_short() for angles, in phase units s^2 per radian. The correction depends on how the stages get their
- * angles: by rotated sines (or all stages are at the begin), by .places, or by wh_stage_angle(). */
+/* wh_square_short() for angles, in phase units s^2 per radian. `turned` is true if the stages rotated sines. */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -207,8 +201,7 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
     return phases.high * part.low + part.high * phases.low;
 }
 
-/* Adds corrections to the carries of the positions. pulled[] are the sums of accelerations with the weights .positions.
- * If h.low is 0, only angles need a correction, because WH_PHASE_PER_RAD is rounded. */
+/* Adds the corrections of h^2 / by->parts, multiplied by pulled[] of wh_second_end(), to the positions' carries. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {

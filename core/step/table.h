@@ -48,8 +48,7 @@
 /* Number of cells that the table of an even or odd function stores. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
-/* Scale b, c and d. In float, y is 2^32 times the distance in cells, because a shift of the phase then suffices to
- * compute it. The coefficients contain the inverse powers of this factor. */
+/* Scale the coefficients b, c and d. In float, y is 2^32 times the distance in cells: a shift of the phase gives it. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -76,8 +75,7 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     return sum - 6755399441055744.0;
 }
 
-/* Subtracts a multiple of pi/64, which has three parts as in wh_sincos_parts(). If a turn has more than 128 cells, it
- * is first divided into 128 coarse cells, and each of these into 2^finer cells. */
+/* First finds the coarse cell (of at most 128), then the cell within it. pi/64 has three parts (number/sine.h). */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;
@@ -115,7 +113,7 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
 WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y, bool *back) {
 #if WH_TABLE_FOLD
-    /* ~phase instead of -phase keeps a phase on the border of two cells in the cell that it has without folding. */
+    /* -phase instead of ~phase would move a phase on the border of two cells to the other cell */
     const bool beyond = (int32_t)phase < 0;
     const wh_real *row = wh_table_cell(cells, bits, width, beyond ? ~phase : phase, y);
     const wh_real way = (wh_real)(int32_t)(phase << bits);
