@@ -29,9 +29,9 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
 
 /* Returns the logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * Each of 16 sectors of the mantissa m has a multiple c of 1/128 near 1/m. m c is 1 + z exactly, with |z| <= 1/16. The
- * result is exponent - log2(c) + log2(1 + z). The polynomial log2(e) z - z^2 (...) approximates log2(1 + z). From 31/32
- * to 17/16, exponent - log2(c) is 0, so small logarithms have the same relative precision as large ones. */
+ * The result is exponent - log2(c) + log2(1 + z), with z = m c - 1 exactly. A table gives c, near 1/m, for each of 16
+ * sectors of the mantissa m, so |z| <= 1/16. The polynomial log2(e) z - z^2 (...) approximates log2(1 + z). From 31/32
+ * to 17/16, exponent - log2(c) is 0, so small logarithms keep their relative precision. */
 static int64_t log2_of(uint32_t magnitude) {
     /* For each sector, c in Q7 in the upper 8 bits, and -log2(c) in Q55 in the other bits. */
     static const uint32_t inverses[] WH_FLASH = {
@@ -126,7 +126,7 @@ float wh_pow(float base, float exponent) {
     const uint32_t x = base_bits & ~WH_BITS_SIGN;
     const uint32_t y = exponent_bits & ~WH_BITS_SIGN;
     if (y == 0U || base_bits == WH_BITS_ONE) {
-        return 1.0f; /* also if the other argument is NaN */
+        return 1.0f; /* even if x or y is NaN */
     }
     if (x > WH_BITS_INFINITE || y > WH_BITS_INFINITE) {
         return wh_float_of_bits(WH_BITS_NAN);
@@ -154,7 +154,7 @@ float wh_pow(float base, float exponent) {
     const uint32_t zeros = wh_leading_zeros_64(size);
     const wh_digits d = wh_digits_of(y);
     const uint64_t product = ((size << zeros) >> 24) * (d.size >> 8);
-    /* The result's |log2| is product 2^(d.exponent + 1 - zeros - POINT). `shift` converts it to Q32. */
+    /* A right shift by `shift` converts the product to |log2(result)| in Q32. */
     const int32_t shift = POINT - 33 + (int32_t)zeros - d.exponent;
     if (shift < 23) { /* the result's |log2| is at least 2^8 */
         return wh_float_of_bits(below_one ? least : most);

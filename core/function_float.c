@@ -39,7 +39,7 @@ uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     return ratio;
 }
 
-/* wh_float_ratio() uses 24 digits of x. A first-order correction adds the effect of the lower ones. */
+/* wh_float_ratio() needs a 24-bit divisor. A first-order correction adds the effect of the lower 8 bits of x. */
 wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t zeros = wh_leading_zeros(x.size);
     const uint32_t size = x.size << zeros;

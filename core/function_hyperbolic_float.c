@@ -1,5 +1,5 @@
 /* function_hyperbolic_float.c: the hyperbolic functions in float. For |x| < 1, sinh x / x and cosh x are minimax
- * polynomials in x^2. They are 1 at x = 0, so that sinh x = x for small x. For |x| >= 1, e^x and e^-x are used. */
+ * polynomials in x^2. Both are 1 at x = 0, so sinh x = x for small x. For |x| >= 1, e^x and e^-x are used. */
 #include "function_float.h"
 
 #if !WH_DOUBLE

@@ -1,12 +1,12 @@
-/* function_log_double.c: the natural logarithm in double. x = 2^e m, and m = (1 + r)/c with c from a table and |r| <=
- * 2^-8. Then log x = e log 2 - log c + log(1 + r). c has 15 bits, so r is exact. Near x = 1, e is 0 and c is 1. The
- * result is a pair, because pow() needs more than 53 bits. */
+/* function_log_double.c: the natural logarithm in double: log x = e log 2 - log c + log(1 + r), if x = 2^e (1 + r)/c. A
+ * table has the numbers c. They have 15 bits, so r is exact; |r| <= 2^-8. Near x = 1, e is 0 and c is 1. The result is
+ * a pair, because pow() needs more than 53 bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define LN2_HIGH \
-    0x1.62e42fefa4p-1 /* a multiple of 2^-40, as entry.high, so that exponent * LN2_HIGH + entry.high is exact */
+    0x1.62e42fefa4p-1 /* a multiple of 2^-40, so exponent * LN2_HIGH + entry.high is exact */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
 /* The bits of 0.7051. In x = 2^e m, the mantissa m is at least this number and below twice this number. */

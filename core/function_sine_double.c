@@ -87,7 +87,7 @@ static turned reduced(double rad) {
     word[1] = (word[1] << 2) | (word[2] >> 62);
     word[2] <<= 2;
     const bool over = word[0] >> 63 != 0;
-    if (over) { /* the next quarter turn is nearer; ~word is 1 - word - 2^-192 */
+    if (over) { /* the next quarter turn is nearer */
         quarters++;
         word[0] = ~word[0];
         word[1] = ~word[1];

@@ -16,7 +16,7 @@ static const uint32_t two_over_pi[] WH_FLASH = {
 /* Subtracts the nearest whole number of quarter turns from a magnitude. Returns the size of the remainder in radians.
  * *odd: the number of quarter turns is odd. *below: the remainder is negative. */
 static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
-    /* The skipped bits of 2/pi add only whole half turns, because the float is digits 2^((magnitude >> 23) - 150). */
+    /* The skipped bits of 2/pi contribute only whole half turns, which do not change the tangent. */
     const uint32_t skip = (magnitude >> 23) - (150U - 31U);
     const uint32_t *word = &two_over_pi[skip >> 5];
     const uint32_t shift = skip & 31U;
@@ -37,8 +37,7 @@ static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
     const uint32_t zeros = wh_leading_zeros_64(size);
     const uint32_t half_pi = UINT32_C(3373259426); /* Q31 */
     const uint32_t rad = wh_high((uint32_t)((size << zeros) >> 32), half_pi);
-    const int32_t exponent =
-        -(int32_t)zeros; /* rad is Q31 times 2^exponent; its top bit may be clear */
+    const int32_t exponent = -(int32_t)zeros;
     return rad < WH_TOP_BIT ? (wh_digits){rad << 1, exponent - 1} : (wh_digits){rad, exponent};
 }
 

@@ -26,7 +26,7 @@ static inline uint64_t wh_real_bits(wh_real value) {
     return bits;
 }
 
-/* Mix the bits of a real: 0.0 and -0.0 differ, and so do different NaNs. */
+/* The zeros 0.0 and -0.0 give different hashes. NaNs with different bits do so, too. */
 static inline uint64_t wh_hash_real(uint64_t hash, wh_real value) {
     return wh_hash_u64(hash, wh_real_bits(value));
 }

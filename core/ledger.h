@@ -22,20 +22,19 @@
 
 WH_C_BEGIN
 
-/* Computes the accounts at a state, SI units: level[0] is the energy, level[1 + i] the momentum of coordinate i. */
+/* Computes the accounts of a state in SI units. level[0] is the energy, level[1 + i] the momentum of coordinate i. */
 typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_real *linear,
                           const wh_real *rate, const wh_real *input, wh_real *level);
 
-/* A scene's constant data for the ledger. The functions are lists of operations, like the accelerations. */
+/* A scene's constant data for the ledger. */
 struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
-    wh_accel_fn *powers;  /* result[smooth]: rate of change of each entry's account */
+    wh_accel_fn *powers;  /* result[smooth]: time derivative of each smooth entry */
     wh_levels_fn *levels; /* result[1 + all coordinates] */
-    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. For example, a term th^2 th' of L
-     * does not change the accelerations, but its derivative dL/dth = 2 th th' needs the angle th. */
+    /* Replaces `powers` if an entry depends on a turn angle itself, not only on its sine and cosine. Else NULL. */
     wh_levels_fn *turned;
-    const uint8_t *account; /* [smooth] account of each smooth entry */
-    const uint8_t *input;   /* [inputs] index in state->input of each input in the energies */
+    const uint8_t *account; /* [smooth] index of each smooth entry's account */
+    const uint8_t *input;   /* [inputs] index in state->input of each input that enters L */
     uint16_t smooth;        /* number of smooth entries */
     uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
     uint8_t accounts;       /* other stored reals: 2 per account, 1 per input, 1 if stabilized */
@@ -50,7 +49,7 @@ WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) 
     return form->smooth + k * (1U + form->coordinates);
 }
 
-/* Index of the entry of input form->input[0]. Those of the other inputs follow, all in the energy's account. */
+/* Index of the entry of form->input[0]. The entries of the other inputs follow. All belong to the energy's account. */
 WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
     return (unsigned)form->entries - form->inputs - form->stabilized;
 }
@@ -73,8 +72,8 @@ WH_INLINE unsigned wh_ledger_level_count(const wh_ledger_form *form) {
     return ((unsigned)form->accounts - form->inputs - form->stabilized) / 2U;
 }
 
-/* Returns for each account the sum of its changes by corrections such as wh_scene_set_real(). A correction changes the
- * account's stored initial value by the same amount, so the entries still add up to the change since the start. */
+/* Returns an array with one real for each account: the total change by corrections such as wh_scene_set_real(). Each
+ * correction is also added to the account's stored initial value, so that it does not count as drift. */
 WH_INLINE wh_real *wh_ledger_corrected(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + wh_ledger_level_count(form);
 }

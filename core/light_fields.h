@@ -24,8 +24,8 @@
     X(thomson_a_conserved) \
     X(shuttle_buffers)
 
-/* The fields of one scene: the hash of its operations; the hash of its last state, the number of steps and the
- * status; the least, median and largest number of cycles that a step takes. */
+/* model: hash of the scene's operations. hash: hash of the last state, number of steps, status. cycles: least, median
+ * and largest number of cycles of a step. */
 #define WH_LIGHT_OF_SCENE(scene) "model." #scene, "hash." #scene, "cycles." #scene,
 #define WH_LIGHT_FIELDS \
     "board", "chip", "version", "compiler", WH_LIGHT_SCENES(WH_LIGHT_OF_SCENE) "stack", "clock", \

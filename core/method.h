@@ -93,7 +93,7 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* The systems that a method can step, one bit for each wh_form. Bit 2: the accelerations must not depend on rates. */
+/* The systems that a method can step, one bit for each wh_form. Bit 2 forbids accelerations that depend on rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 WH_C_BEGIN
@@ -132,7 +132,7 @@ union wh_method_stages {
 /* The largest number of stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
-/* Stage j has the weight share[j] / parts. Shares are reals: high-order weights are no ratios of small integers. */
+/* Stage j has the weight share[j] / parts. */
 typedef struct wh_shares {
     wh_real parts;
     wh_real share[WH_STAGES_MAX];
@@ -146,7 +146,7 @@ typedef struct wh_places {
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
-    const wh_places *places; /* positions of the stages; NULL: computed from the stages' rates */
+    const wh_places *places; /* NULL if .stage gives the positions, too */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];

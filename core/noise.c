@@ -4,8 +4,8 @@
 #define WORDS 3U      /* each word gives four uniform numbers */
 #define MEAN 0x5fffaU /* 12 * 65535 / 2 */
 
-/* Teichroew's polynomial p: the deviate is z p(z^2), with z the sum minus its mean, over 2^16. The coefficients of p,
- * in units of 2^-40, are his a_1, a_3, ... a_9, divided by 4, 4^3, ... 4^9. */
+/* Coefficients of p, in units of 2^-40. The deviate is z p(z^2), with z = (sum - MEAN)/2^16. Teichroew's argument is
+ * z/4, so the coefficients are his a_1, a_3, ... a_9, divided by 4, 4^3, ... 4^9. */
 static const uint64_t polynomial[] = {UINT64_C(1085725439164), UINT64_C(4336349890),
                                       UINT64_C(82187326), UINT64_C(560760), UINT64_C(125409)};
 enum { TERMS = sizeof polynomial / sizeof polynomial[0] };

@@ -1,13 +1,12 @@
 /* noise.h: Gaussian noise with the same bits everywhere: a function of a seed and an index, without state.
  *
  * The sum of twelve uniform 16-bit numbers, less its mean, is nearly Gaussian. A polynomial of degree 9 corrects it
- * (Teichroew 1953; Knuth, The Art of Computer Programming 2, section 3.4.1). The uniform numbers are the words 3 index
- * + 1 to 3 index + 3 of splitmix64 (Steele, Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA 2014),
- * started at a mixed form of the seed. All arithmetic is in 64-bit integers. The result has 21 bits with its sign, so
- * float and double builds give the same number.
+ * (Teichroew 1953; Knuth, The Art of Computer Programming 2, section 3.4.1). Three 64-bit words of splitmix64 (Steele,
+ * Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA 2014) give the uniform numbers. All arithmetic is
+ * in integers. The result has 21 bits, so a float holds it exactly.
  *
  * The mean is 0, the standard deviation 1.0001, the kurtosis 3.002. Values beyond three standard deviations are 1.006
- * times as frequent as a Gaussian's, values beyond four 1.05 times; no value is beyond 8.6. Not for cryptography. */
+ * times as frequent as a Gaussian's, values beyond four 1.05 times. No value is beyond 8.65. Not for cryptography. */
 #ifndef WH_NOISE_H
 #define WH_NOISE_H
 

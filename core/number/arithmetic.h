@@ -16,7 +16,7 @@
 
 /* The arguments of the checks, in flash (scene.c). */
 typedef struct wh_probes {
-    wh_real factor; /* 1 + r, with r so small that the square 1 + 2 r + r^2 rounds to 1 + 2 r */
+    wh_real factor; /* 1 + r; its exact square, 1 + 2 r + r^2, rounds to 1 + 2 r */
     wh_real square; /* 1 + 2 r */
     wh_real one;
     wh_real quarter_unit; /* a quarter of a unit in the last place of 1 */
@@ -37,16 +37,16 @@ extern const wh_probes wh_probe;
 typedef enum wh_probed {
     WH_PROBED_PRODUCT,   /* not 0 if a product enters a sum unrounded (contraction or x87) */
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
-    WH_PROBED_ROUNDING,  /* 0 if sums are rounded twice or downwards; otherwise an ulp of 1 */
+    WH_PROBED_ROUNDING,  /* the ulp of 1; 0 if sums are rounded twice or downwards */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
     /* 5/3, 7/3 and 10/3: wrong if the compiler multiplies by 1/3 instead of dividing by 3 */
     WH_PROBED_FIVE,
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD,   /* the same check with a divisor that the compiler knows */
+    WH_PROBED_THIRD,   /* 7/3, but the divisor is a compile-time constant */
     WH_PROBED_ZERO,    /* +0; it is -0 if the compiler drops the addition of 0 */
     WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
-    WH_PROBED_LITERAL, /* 70, or another number if the compiler rounded the constant 0.1 to float */
+    WH_PROBED_LITERAL, /* 7/0.1; not 70 if the compiler rounds 0.1 from double to float */
     WH_PROBED_COUNT
 } wh_probed;
 
@@ -72,8 +72,7 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
-/* compute() is wh_arithmetic() of the file to be checked. Returns the first result that differs from its reference, or
- * WH_PROBED_COUNT. */
+/* Calls compute(), some file's wh_arithmetic(). Returns the first wrong result's index, or WH_PROBED_COUNT. */
 #define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
 

@@ -58,7 +58,7 @@ WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #endif
 }
 
-/* Section for lists of strings, next to the other constant strings. */
+/* Attribute of a constant list of strings. */
 #if defined(WH_WORDS_FROM)
 #define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
 #else

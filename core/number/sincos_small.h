@@ -12,7 +12,7 @@
 /* Largest angle of a small rotation, rad. */
 #define WH_SINCOS_SMALL WH_R(0.5)
 
-/* Most halvings of a rotation: enough for 2^15 rad. Larger rotations give infinity or NaN, and the step is refused. */
+/* Maximum number of halvings of a rotation: enough for 2^15 rad. */
 #define WH_SINCOS_HALVINGS 16U
 
 /* Returns sin d and cos d - 1 for |d| <= 1/2. Before rounding, the sine's error is at most 4.1e-8 in float and 7e-18 in
@@ -38,8 +38,8 @@ WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
     return turn;
 }
 
-/* wh_sincos_small() for any d: the rotation by d / 2^k, doubled k times. The error is within 7e-7 |d| in float, 1.3e-15
- * |d| in double. `surely`: the caller knows that d is not small. Inline, because a call would spill all registers. */
+/* Like wh_sincos_small(), for |d| <= 2^15: halves d until it is small, then doubles the rotation as often. The error is
+ * at most 7e-7 |d| in float and 1.3e-15 |d| in double. If `surely`, |d| is above WH_SINCOS_SMALL. */
 WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     unsigned doublings = 0;
     if (surely || WH_ABS(d) > WH_SINCOS_SMALL) {

@@ -5,8 +5,8 @@
  *
  *      sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
  *
- * The terms in parentheses are below 1/40, so their round-off hardly matters. The error is that of the table and of the
- * last sum, half a unit in the last place each. Quarter turns are exact, and no value is beyond one.
+ * The terms in parentheses are below 1/40, so their round-off hardly matters. The table and the last sum each
+ * contribute an error of half a unit in the last place. Quarter turns are exact, and no value is beyond one.
  *
  * The usual polynomial for an eighth of a turn would save the table (640 bytes of flash in float), but it is slower and
  * less accurate (docs/dev/numerics.md). */
@@ -23,7 +23,7 @@ WH_C_BEGIN
  * |phase| is larger or NaN, *sine and *cosine are NaN. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* The sine is sine + sine_rest. Add a further term to sine_rest first, because a small sum has a small round-off. */
+/* The sine is sine + sine_rest. If you add a small term, add it to sine_rest, because that sum has less round-off. */
 typedef struct wh_sine_parts {
     wh_real sine;
     wh_real cosine;
@@ -41,19 +41,17 @@ typedef struct wh_wave {
  * any other number, and of NaN, is 0. Double: returns rad. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
-/* Float: sets *sine and *cosine to NaN if rad is NaN or out of the range of wh_phase_from_rad(), because a phase cannot
- * be NaN. So the float build refuses such a step, as the double build does. */
+/* Float: sets *sine and *cosine to NaN if |rad| >= 1e9 or rad is NaN. A phase cannot be NaN. Double: no effect. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
-/* Binary logarithm of the number of sectors in a turn; number of sectors in a quarter turn. */
-#define WH_SINE_BITS 7
-#define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
+#define WH_SINE_BITS 7                             /* a turn has 2^7 sectors */
+#define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2)) /* sectors of a quarter turn */
 
 /* Entry i is the sine at the middle of sector i. The cosine is WH_SINE_QUARTER entries later. */
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
-/* Computes both parts of sine and cosine at the angle r beyond the middle of `sector`. */
+/* Sets *parts for the angle r plus the middle of `sector`. */
 WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1,
                                wh_sine_parts *parts) {
     const wh_real *middle = &wh_sine_table[sector];
@@ -85,7 +83,7 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     r = r - sectors * 9.9216777016408741e-08;
     r = r - sectors * 8.0104504737328716e-14;
 
-    /* Minimax for |r| <= pi/128: sin r to 2.8e-17, cos r to 3e-20. */
+    /* Minimax for |r| <= pi/128. The error of sin r is at most 2.8e-17, that of cos r 3e-20. */
     const double z = r * r;
     const double sin_r = r + r * z * (-0.1666666666295987 + z * 0.0083331554016490665);
     const double cos_r_less_1 =
@@ -108,19 +106,19 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const unsigned rest_bits = 32U - WH_SINE_BITS;
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
-    /* y: the angle from the sector's middle, 2^39 per turn. Shifting the sector number out puts the sign on top. */
+    /* y is the angle from the sector's middle, in units of 2^-39 turns. The shift drops the sector number. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
-    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The coefficients contain the scale of y. They are
-     * 0x1.921fb6p-37, -0x1.4ab89ep-112 and -0x1.3bd07p-74; C++11 has no such literals. */
+    /* Minimax for |r| <= pi/128, with y instead of r. The error of sin r is at most 5e-12, that of cos r 2.6e-9. The
+     * coefficients are 0x1.921fb6p-37, -0x1.4ab89ep-112 and -0x1.3bd07p-74; C++11 has no such literals. */
     const float z = y * y;
     const float sin_r = y * (1.14290478e-11f + z * -2.48806948e-34f);
     const float cos_r_less_1 = z * -6.53088477e-23f;
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* Converts radians to a stored angle by integers, because a float would round 2^32/(2 pi). The factor of `whole` is
- * 683565276 - 1819212470/2^32. The factor of `fraction`, which is in units of 2^-31 rad, is 1367130551/2^32. */
+/* Converts radians to a stored angle. A float would round the factor 2^32/(2 pi), so integers are used. The factor is
+ * 683565276 - 1819212470/2^32. For `fraction`, in units of 2^-31 rad, it is 1367130551/2^32. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
