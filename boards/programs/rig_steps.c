@@ -1,7 +1,7 @@
 /* rig_steps.c: the cost of each control step (rig_control.h) of several runs on the virtual rig. A step's interval has
  * only the controller's work between readings and outputs. Interval 0 is empty. Prints
  *
- *     run NAME FIRST LAST TURNS QUALITY    a run's first and last interval, and its measurement */
+ *     run NAME FIRST LAST TURNS QUALITY    a run's first and last interval; turns and quality of its force */
 #include "boards/programs/counted.h"
 
 static void begin_step(void);
@@ -41,7 +41,6 @@ static const trial trials[] = {
 static uint32_t seed = 1;
 static const trial *tried;
 
-/* Adds the run's noise to the samples, and begins to count. */
 static void begin_step(void) {
     for (unsigned i = 0; i < seen.samples; i++) {
         seed = seed * UINT32_C(1664525) + UINT32_C(1013904223);

@@ -12,7 +12,7 @@ typedef struct board_fault_when {
     uint32_t faults; /* number of faults since power-on, including this one */
 } board_fault_when;
 
-/* Adds the words of the fault that hal_reset_cause() reports. Each family implements this function. */
+/* Adds to `text` a description of the fault that caused the reset. Each family implements this function. */
 board_fault_when board_fault_answer(wh_text *text);
 
 #endif

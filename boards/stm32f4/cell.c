@@ -6,9 +6,9 @@
  * neighbours (hal/averaged.h). One count of the converter is 109 mN. With noise of half a count the mean resolves
  * 1.7 mN; the unit of a sample is 6.8 mN.
  *
- * Without force, the amplifier's output is half of the reference; near either end the amplifier is saturated. If all
- * counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. Leakage, and charge that
- * the converter keeps from the other input, leave the pin slightly above 0. */
+ * Without force, the amplifier's output is half of the reference. The amplifier is saturated within RAIL of 0 and of
+ * FULL. If a wire is broken, a resistor pulls the pin down, and the mean is below OPEN_BELOW. It is not 0, because of
+ * leakage and of charge from the supply's conversion. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -99,7 +99,7 @@ void stm32f4_cell_start(void) {
     start_dma();
     start_converter();
     stm32f4_interrupt(DMA2_STREAM0_IRQ);
-    /* timer 3, the trigger, last */
+    /* Timer 3 triggers the converter, so the timer starts last. */
     stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_TIM3));
     reg_store(TIM_PSC(TIM3), 0);
     reg_store(TIM_ARR(TIM3), stm32f4_clocks_now()->timers_Hz / PAIRS_PER_S - 1U);

@@ -88,7 +88,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
         return fall_back();
     }
-    /* A stopped crystal switches the motor off by the timer's break, and causes an NMI, which is a fault (7.2.7). */
+    /* If the crystal stops, TIM1's break switches the motor off, and an NMI calls the fault handler (7.2.7). */
     reg_set(RCC_CR, RCC_CR_CSSON);
     return BOARD_CLOCK_CRYSTAL;
 }

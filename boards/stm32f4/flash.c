@@ -50,7 +50,7 @@ bool hal_settings_erase(unsigned slot) {
     return done;
 }
 
-/* Writes whole words: bytes after `count` stay 0xFF. */
+/* Pads the last word with 0xFF, the value of erased bytes. */
 bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
     bool done = opened();
     if (!done) {

@@ -68,7 +68,6 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Without MOE the voltage has no effect; a start sets it to 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
 /* Clears MOE first, as the fault handler does (BOARD_SAFE_ROWS). BIF is cleared, because it prevents the next start. */

@@ -11,7 +11,7 @@ _Static_assert((int)BOARD_CLOCK_CRYSTAL == (int)HAL_CLOCK_CRYSTAL &&
                    (int)BOARD_CLOCK_GIVEN == (int)HAL_CLOCK_PLAYED,
                "one list of what it runs on");
 
-/* The motor first, so that it is off even if later parts fail. */
+/* Sets up the motor first, so that the motor is off even if a later part fails. */
 bool hal_clock_start(void) {
     stm32f4_motor_start();
     stm32f4_reset_start();
