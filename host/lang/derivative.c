@@ -78,7 +78,7 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
         const expr *size = expr_binary(in, EXPR_ADD, at, square(in, u), square(in, v));
         return expr_binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
     }
-    /* the derivative of the smaller or larger argument; if both are equal, the mean of the two derivatives */
+    /* sign(u - v) selects du or dv */
     if (of->function == FN_MIN || of->function == FN_MAX) {
         const expr *lead = call(in, FN_SIGN, at, expr_binary(in, EXPR_SUB, at, u, v));
         const expr *half = number(in, at, of->function == FN_MIN ? -0.5 : 0.5);
@@ -216,7 +216,6 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name) {
 }
 
 /* === inputs with a rate ======================================================================= */
-/* Inside a step, an input with a rate moves like a coordinate of given acceleration. */
 
 const symbol *symbol_moving(const symbol *s, int *primes) {
     if (s->kind != SYM_INPUT || s->driven == NULL) {
@@ -242,7 +241,6 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     return buffer;
 }
 
-/* Is the symbol that input `s` names as its rate suitable? If not, reports the reason. */
 static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     const named *rate = (const named *)s->rate;
     char unit[DIM_TEXT_SIZE];
@@ -296,8 +294,8 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* Returns an input in the expression: if `rates`, one that is the rate of another input, else one that has no rate.
- * Returns NULL if there is none. `mark` is the number of this walk, which visits each let once. */
+/* If `rates`, finds an input that is the rate of another input; else an input that has no rate. Each search needs a
+ * new `mark`, so that it visits each let once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;
@@ -318,7 +316,6 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* Reports a stop or hold that contains the rate of an input, and a hold that contains an input without a rate. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

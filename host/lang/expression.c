@@ -195,7 +195,7 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     case SYM_RECORD:
         made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
         if (found->value != NULL) {
-            /* even a let of plain numbers needs no unit, because its name stands for a quantity */
+            /* a let counts as a value with a unit, even if its expression has no unit */
             made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
             made->order = found->value->order;
             made->height = found->value->height + 1;
@@ -600,7 +600,7 @@ static const expr *parse_comparison(parser *in) {
     if (by == NULL) {
         return NULL;
     }
-    /* drop the dimension: only the sign matters, and `and` may join conditions of different dimensions */
+    /* drop the dimension, so that `and` can join conditions of different dimensions */
     expr *made = expr_new(in, by->op, by->at);
     *made = *by;
     made->dim = dim_none();
@@ -608,7 +608,7 @@ static const expr *parse_comparison(parser *in) {
     return made;
 }
 
-/* Reads PART { word PART }. Each of several parts must be a condition. */
+/* Reads PART { word PART }. If there are several parts, each must be a condition. */
 static const expr *parse_joined(parser *in, word_id word, function_id function,
                                 const expr *(*part)(parser *)) {
     const expr *left = part(in);

@@ -9,20 +9,19 @@
 
 /* --- grammar (expression.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
-/* Reads the condition of a hold as one expression, above zero if the condition is true. NULL after an error. */
+/* Reads the condition of a hold. The expression is above zero if the condition is true. NULL after an error. */
 const expr *parse_condition(parser *in);
-/* Reads a unit token. If a name comes instead, the rest of the source is the unit. *text: the unit without blanks. */
+/* Reads a unit token, or the rest of the source if the token is a name. *text: the unit without blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
 /* Returns a hint if a later statement of the same mechanism declares the name, else NULL. */
 const char *hint_declared_later(parser *in, const token *name);
 /* Reports an unknown coordinate, with the nearest known name as a hint. */
 void no_such_coordinate(parser *in, const token *name);
-/* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
-/* Reads "= EXPR", the value of `name` in a WORD_SET, WORD_START or WORD_WHEN. Checks it and appends it to the list,
- * unless `of` is NULL (a reported name). */
+/* Reads "= EXPR" after `name`, and appends it to the list, unless `of` is NULL because `name` was an error.
+ * `statement`: WORD_SET, WORD_START or WORD_WHEN. */
 bool parse_assigned(parser *in, const token *name, const symbol *of, word_id statement,
                     const assignment **list, int *count);
 
@@ -44,19 +43,18 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
                       const expr *right);
 /* *value: the value of an expression that has only numbers and operators. Returns false for other expressions. */
 bool expr_constant(const expr *tree, double *value);
-/* Returns the dimension for messages: dim_text(). */
 const char *dimension_words(const parser *in, dimension dim);
 /* Reports "RULE, but this is ..." at `at`, and returns false, if the dimension of `value` is not `wanted`. */
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule);
-/* As check_dimension(), with a rule such as "SUBJECT is mass [kg]"; `verb` is "is" or "must be". */
+/* As check_dimension(). The rule is "SUBJECT VERB DIMENSION", such as "m is mass [kg]". */
 bool check_named(parser *in, place at, const expr *value, dimension wanted, const char *subject,
                  const char *verb);
-/* Returns false, and reports an error at `at`, if a nonzero value has no unit, but the declared unit of `of` is not
- * SI. The value is of the derivative of order `primes`. The current token must be the one after the value. */
+/* Returns false, and reports an error at `at`, if a nonzero value has no unit and `of` is not declared in SI.
+ * `primes` is the order of the derivative of `of` that gets the value. The value must have been read just before. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* As check_unit() and check_dimension(), for a value of `of`, or of its derivative if `name` has primes. */
+/* As check_unit(), with the number of primes of `name`. Also checks the dimension. */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for the limit `value` of a stop or `when` on `of`. Returns true if `of` is not a single symbol. */
+/* As check_unit(), for a limit `value` of the expression `of`. Requires a unit only if `of` is a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif

@@ -8,7 +8,7 @@
 /* A rate in SI units, far below the rates of real motions. */
 #define NEAR_REST 1e-6
 
-/* Does the tree, or a let in it, contain an unknown or derivative other than the first derivative of `own`? */
+/* Does the tree contain an unknown, or a derivative of one, that is not the rate of `own`? */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -43,8 +43,7 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force jump against the motion at rate 0? The forces at two rates r and -r are compared. If r is ten times
- * smaller, the difference is the same at a jump, but a tenth for a smooth force. False if the force is not finite. */
+/* Does the force drop suddenly at rate 0? The drop of a smooth force would be proportional to the rate. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
@@ -59,7 +58,7 @@ static double bend(const term *of, const symbol *coordinate, valuation *known, d
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rate 0? If `rate` is ten times smaller, bend() falls to a tenth for a kink, else to a hundredth. */
+/* Has F a kink at rate 0? bend() is proportional to the rate if there is a kink, else to the square of the rate. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);

@@ -4,8 +4,7 @@
 
 #include "model.h"
 
-/* Returns the first active term that is dry friction, written as Q or F instead of with `friction`, or NULL. Such a Q
- * contains sign() of its coordinate's rate, and jumps at rate 0. Such an F has a kink there. *of: the coordinate. */
+/* Returns the first active Q or F that models dry friction, or NULL. *of: the coordinate that has the friction. */
 const term *hint_friction(const instance *made, const symbol **of);
 
 #endif

@@ -1,4 +1,4 @@
-/* instance.c: the numbers of a scene, or of a mechanism without a scene, after the changes of the command line. */
+/* instance.c: the numerical values of a scene or mechanism, including the changes from the command line. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -141,7 +141,7 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Checks contacts and noises at the initial values of the inputs. A program that changes inputs must check ranges. */
+/* Checks contacts and noises, but only at the initial values of the inputs. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -232,7 +232,6 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     into->until = from->until;
 }
 
-/* Reports a change of a symbol whose effect is inactive, and returns false. */
 static bool takes_part(const instance *made, override_kind kind, const assignment *change,
                        diags *all) {
     const effect *missing = instance_lacks(made, change->symbol);

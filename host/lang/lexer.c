@@ -41,8 +41,7 @@ place place_after(place from, size_t bytes) {
     return from;
 }
 
-/* Reports a carriage return without a line feed. Only a line feed ends a # comment: in a file without line feeds, one
- * comment would hide all text after it. A display, too, may hide text at such a carriage return. */
+/* Reports a carriage return without a line feed: it would not end a # comment. */
 static void check_line_ends(const lexer *in) {
     const source *text = in->at.source;
     const char *at = text->text + in->at.offset;
@@ -177,11 +176,11 @@ static void read_name(lexer *in, token *made) {
     advance(in, length + primes);
 }
 
-/* A string ends on its line. Its bytes must be UTF-8 text: titles go into records and pictures. */
+/* A string ends on its line. It must be UTF-8 text without control characters, except for tabs. */
 static void read_string(lexer *in, token *made) {
     size_t length = 1;
     int c = at_offset(in, length);
-    bool is_clean = true; /* no control character but tab; check_line_ends() reports \r */
+    bool is_clean = true; /* allows \r: check_line_ends() has reported it */
     bool is_utf8 = true;
     while (c > 0 && c != '"' && c != '\n') {
         const size_t left = in->at.source->length - in->at.offset - length;
