@@ -4,7 +4,7 @@
 #include "boards/board.h"
 
 /* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20) ends the emulator or debugger. Without one, the
- * breakpoint becomes a hard fault, whose handler calls this function again: then the program stops. */
+ * breakpoint becomes a hard fault, whose handler calls this function again. */
 _Noreturn void board_exit(int code) {
     static volatile int leaving = 0;
     const uint32_t application_exit = 0x20026U;

@@ -10,8 +10,7 @@ void board_fault_report(const uint32_t *frame, uint32_t exception);
                      : \
                      : "i"(address), "i"(value));
 
-/* Passes SP, which points to the stacked frame (only the main stack is used), to the handler in C. The handler has its
- * own stack, because the old one is unusable after an overflow. */
+/* Calls board_fault_report() with the address of the stacked frame, on a new stack: the old one may have overflowed. */
 __attribute__((naked)) void board_fault(void) {
     BOARD_SAFE_ROWS(SAFE_STORE)
     __asm__ volatile("cpsid i\n\t"
@@ -50,7 +49,7 @@ __attribute__((used)) _Noreturn void board_fault_report(const uint32_t *frame, u
         facts.stack = BOARD_STACK_OVERFLOW;
     } else if (at + 8U * sizeof *frame > (uintptr_t)board_stack_top) {
         facts.stack = BOARD_STACK_ASTRAY;
-    } else { /* the frame: r0-r3, r12, lr, pc, xpsr */
+    } else { /* the processor has stacked r0-r3, r12, lr, pc, xpsr */
         facts.lr = frame[5];
         facts.pc = frame[6];
     }

@@ -33,7 +33,6 @@ _Noreturn void board_exit(int code) {
 uint32_t board_ticks(void) {
     struct timespec now;
     if (clock_gettime(CLOCK_MONOTONIC, &now) != 0) {
-        /* cannot happen under POSIX; with a stopped clock, loops would never end */
         board_exit(EXIT_FAILURE);
     }
     const uint64_t seconds = (uint64_t)now.tv_sec;

@@ -29,8 +29,7 @@ static inline wh_stop_by stop_was_by(void) {
 }
 
 /* Passes a command to the motor. *drives is true if the last command drove the motor, and false before the first one.
- * Only the first of successive driving commands starts the motor. If an interrupt then switches the motor off, or stop
- * prevents the start, the motor stays off until a driving command follows one that does not drive. */
+ * Only the first of successive driving commands starts the motor: a motor stopped by an interrupt stays off. */
 static inline void obey(const wh_rig_command *command, bool *drives) {
     if (command->way != WH_MOTOR_DRIVES) {
         hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);

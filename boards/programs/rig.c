@@ -46,7 +46,7 @@ static float displacement_m; /* measured amplitude of the carriage */
 /* number of off commands before the program ends */
 #define LAST_ORDERS 10U
 
-/* Longest wait for rest before `arm`: the rotor may have been turning before the reset. */
+/* longest wait until the rotor rests */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
@@ -90,7 +90,7 @@ static void put_state(uint32_t started_ticks) {
 }
 
 #if RIG_CARRIAGE || RIG_DIALLED
-/* longest wait for the dials, because a reading may be late or lost */
+/* longest wait for the dials' first readings, which may be late or lost */
 #define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
 
 static bool wait_for_dials(void) {
@@ -122,7 +122,7 @@ static bool take_dials(wh_rig_config *config) {
 #elif RIG_DIALLED
 static bool take_dials(wh_rig_config *config) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
-        return true; /* no wait for dials: after a reset, the program gives no orders and reports a trip at once */
+        return true; /* after a reset the program gives no orders, so it needs no dials */
     }
     if (!wait_for_dials()) {
         return false;
@@ -173,7 +173,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
         *at = WAS_STOPPED;
     } else if (stop &&
                (*at == HAS_ARMED || *at == HAS_STARTED || (*at == WAITS_FOR_REST && rests))) {
-        *at = STOP_SILENT; /* no reading at the time of `arm` */
+        *at = STOP_SILENT;
     }
     if (rig.state == WH_RIG_TRIPPED) {
         return rig.rested;

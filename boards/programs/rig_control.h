@@ -33,7 +33,7 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
-/* Enclose the computation of a control step, so that programs can measure it. Inputs and outputs are outside. */
+/* Begin and end of a control step's computation, for programs that measure it. Inputs and outputs are outside. */
 #if HAL_FRAMES
 #define STEP_BEGINS() hal_frames_step_begins()
 #define STEP_ENDS() hal_frames_step_ends()
@@ -72,8 +72,7 @@ static bool drives;              /* true if the last command drove the motor (ob
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* A step takes at most two edges, and none after a leading one (a pulse), so that a storm of edges cannot delay it.
-     * It takes none if the last step had a pulse and so read no samples (RIG_SAMPLES_WITH_PULSE is 0). */
+    /* A step takes at most two edges, and none after a leading edge (a pulse): a storm of edges must not delay it. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -119,8 +118,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
     obey(&command, &drives);
     trip_memory_keep(&kept_trip, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
-    /* also after a trip, because some watchdogs would reset the processor */
-    hal_watchdog_kick();
+    hal_watchdog_kick(); /* even after a trip, because some watchdogs reset the processor if not kicked */
 }
 
 static const char *why_no_hardware(void) {
@@ -133,8 +131,7 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Starts the hardware, and checks that OWN_ARITHMETIC is that of IEEE 754. Returns NULL, or the reason for a failure:
- * then the motor is off. */
+/* Starts the hardware and checks the arithmetic. Returns NULL, or the reason for a failure: then the motor is off. */
 static const char *why_not_started(void) {
     if (!hal_clock_start()) {
         return why_no_hardware();

@@ -19,7 +19,7 @@ extern const wh_scene rig_observed;
 #define OWN_ARITHMETIC (wh_arithmetic)
 #endif
 
-/* Fills in the standard rig with this hardware's cell and sensors, in place: a copy needs 0.5 KB of stack. */
+/* Sets *config to the standard rig, with this hardware's cell and sensors. */
 static void own_configuration(wh_rig_config *config) {
     *config = wh_rig_standard;
     config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,
