@@ -28,8 +28,9 @@ typedef struct light {
  * is correct, else an error message, for which *hint is the hint. */
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint);
 
-/* Returns the beginning of the last record (light_begin), the first byte after a record (light_end), or NULL. */
+/* Returns the beginning of the last record, or NULL. */
 const char *light_begin(const char *bytes, size_t count);
+/* Returns the first byte after the first complete record, or NULL. */
 const char *light_end(const char *from, const char *end);
 
 bool light_is_none(const char *value);

@@ -121,7 +121,7 @@ bool schema_take(schema *s, const char *line) {
     if (strncmp(line, "OK channel=", 11) == 0) {
         return take_channel(s, line);
     }
-    if (strncmp(line, "OK rate=", 8) == 0) { /* with the new period of the first channel */
+    if (strncmp(line, "OK rate=", 8) == 0) {
         return s->channel[0].known && read_whole(value_of(line, "period_ticks"), 4294967295.0,
                                                  &s->channel[0].period_ticks);
     }

@@ -73,7 +73,7 @@ typedef struct recording {
     int64_t time_us; /* from the first frame to the last one */
     bool expects;    /* the next sample is expected at expected_us */
     int64_t expected_us;
-    int signal[2 * SCHEMA_FIELDS]; /* signals of the run's fields */
+    int signal[2 * SCHEMA_FIELDS]; /* VCD signals of a sample's fields */
     int pulse[2];
     bool ends;    /* the rig reports the ends of pulses */
     bool high[2]; /* the pulse of slot 1 or 2 has not ended yet */

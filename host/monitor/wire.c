@@ -96,8 +96,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* "id" comes first, because its answer is unique: lines before it may answer another program's questions. "tel rate"
- * comes last, because it starts the frames, and they cannot be read without the schema. */
+/* "id" comes first, because no other answer begins with "OK program=". "tel rate" comes last, because it starts the
+ * frames, which cannot be read without the schema. */
 static const struct {
     const char *words;
     const char *answer; /* beginning of the answer */

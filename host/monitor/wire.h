@@ -22,13 +22,13 @@ typedef enum wire_event { WIRE_NOTHING, WIRE_TEXT, WIRE_FRAME } wire_event;
 typedef struct wire {
     uint8_t chunk[WIRE_ROOM]; /* bytes since the last zero */
     unsigned length;
-    bool is_text;  /* the chunk is text */
-    bool is_frame; /* the chunk is a frame. Until this is known, both flags are false */
+    bool is_text;
+    bool is_frame; /* is_text and is_frame are false until the chunk's kind is known */
     bool too_long;
     char line[WIRE_LINE + 1]; /* received text; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
-    bool torn; /* a zero or wire_forget() came in the line: it may begin with a frame's bytes */
+    bool torn;        /* the line may begin with a frame's bytes */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
     uint64_t damaged; /* chunks between zeros that are no frame */
 } wire;
@@ -47,7 +47,7 @@ void wire_forget(wire *w);
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* Values of `asked` when the rig has answered (MET), was_off is known (LISTED), and telemetry is off (OFF). */
+/* Values of `asked` after the answers to "id" (MET), "tel list" (LISTED) and "tel off" (OFF). */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
 /* All zeros, except `rate`, before the first question. */
@@ -56,7 +56,7 @@ typedef struct dialogue {
     int asked; /* number of the current question */
     bool done;
     bool rate_refused;
-    bool was_off; /* telemetry was off: if it was on before, the rig restarted or is another one */
+    bool was_off; /* telemetry was off. During a recording, this shows a restart */
     char refused[DIALOGUE_REFUSAL]; /* the first refused question, and its answer; or "" */
 } dialogue;
 

@@ -42,8 +42,7 @@ enum {
      * becomes zero; one with a larger exponent becomes infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
-    /* Words of 32 bits of the largest number, with a margin. A number of 781 digits has 2595 bits, and 5^1104 has
-     * fewer. The division needs one more bit. */
+    /* The largest number has 781 digits, which are 2595 bits. The division needs one more bit. */
     WORDS = 84,
     FIVES = 13, /* 5^13 is the largest power of 5 in a word */
     QUOTIENT_BITS = 64,
@@ -189,9 +188,9 @@ static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const uint64_t left = quotient & (half | (half - 1));
     const bool is_exact = left == 0 && !rest;
     const bool up = left > half || (left == half && (rest || (whole & 1U) != 0));
-    /* added, not or-ed: the highest bit of a normal number, or a carry, must increase the exponent field */
     const uint64_t scale =
         power >= EXPONENT_LEAST ? (uint64_t)(power - EXPONENT_LEAST) << (MANTISSA - 1) : 0;
+    /* This is a sum, because bit 52 of `whole` must increase the exponent field. */
     const uint64_t made = scale + whole + (up ? 1U : 0U);
     if (made >= INFINITY_BITS) {
         *side = -1;

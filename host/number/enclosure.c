@@ -236,7 +236,7 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* Encloses the angle of (x, y). It is largest and smallest at corners, except if y = 0 with x <= 0 is possible. */
+/* Encloses the angle of (x, y), by the four corners. If `y` contains 0 and x.low <= 0, the result is -pi to pi. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};

@@ -14,7 +14,7 @@
 
 #include "host/number/functions.h"
 
-/* checks the compiler's arithmetic; whirl's start checks the machine's (core/number/arithmetic.h) */
+/* for its checks of the compiler's arithmetic */
 #include "core/real.h"
 
 #if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
@@ -63,7 +63,7 @@ static inline enclosure enclosure_widened(enclosure a, double by) {
 static inline double enclosure_lesser(double a, double b) { return a < b ? a : b; }
 static inline double enclosure_larger(double a, double b) { return a > b ? a : b; }
 
-/* Encloses four rounded products or quotients. If `zero` is true, each one that is finite is exactly zero. */
+/* Encloses four rounded products or quotients. `zero`: they are exactly zero, if finite. */
 static inline enclosure enclosure_of_four(double p, double q, double r, double s, bool zero) {
     const double bad = (p + q) + (r + s); /* not finite if one of the four is not */
     if (!(bad - bad == 0.0)) {
@@ -105,7 +105,7 @@ static inline enclosure enclosure_hull(enclosure a, enclosure b) {
 
 enclosure enclosure_div(enclosure a, enclosure b);
 enclosure enclosure_square(enclosure a);
-/* Encloses `value` and at least more + 1 doubles on either side of it. */
+/* Encloses `value` and, on either side of it, the nearest (more + 1) doubles. */
 enclosure enclosure_about(double value, int more);
 /* A double near the middle, and an upper bound on the distance from that double to either end. */
 double enclosure_middle(enclosure a);
@@ -125,8 +125,8 @@ enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent. If the exponent is not a whole number, `a` must be above zero. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* Encloses the function's values at the points of `a` that are in its domain. `b` is the second argument, if any. The
- * result is not finite if `a` contains a number above 700 for exp, or above 700 or below -700 for sinh and cosh. */
+/* Encloses the function's values at the points of `a` that are in its domain. `b` is the second argument, if any.
+ * Results of exp are not finite if a.high > 700, and those of sinh and cosh if enclosure_size(a) > 700. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

@@ -55,8 +55,7 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Returns the double nearest to `exact`. If it is inexact, it is moved by moved_by() doubles. FOLDING_OTHER moves it by
- * two doubles, past `exact`, because the sum of several round-offs may be as large. */
+/* Returns the double nearest to `exact`. If it differs from `exact`, it is moved by moved_by() doubles. */
 static double other_neighbour(double_double exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -122,8 +121,7 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* Records the loss in a function of a residue. If `value` is not near `at_zero`, no digit is correct.
- * Otherwise, `value` is a residue if `at_zero` is 0. */
+/* Records the loss in a function of a residue. `at_zero`: the function's value at 0. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -132,8 +130,8 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. But sin(90 deg) has no loss:
- * its exact slope is 0, and `slope` is only the round-off of x. `turns`: the function is a sine, cosine or tangent. */
+/* Records the loss of digits of x in a function with a small slope, such as cos(1e-9). No loss is recorded for
+ * sin(90 deg): its computed slope is only round-off. `turns`: the function is a sine, cosine or tangent. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
@@ -148,7 +146,7 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* FOLDING_OTHER moves no products or quotients: in (K + k)/K - 1, a moved quotient could undo the move of K + k. */
+/* In FOLDING_OTHER, a move of the quotient in (K + k)/K - 1 could undo the move of K + k. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }
@@ -185,8 +183,7 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Returns true if `value` has no round-off. abs(), sign(), min() and max() never have any. A root has none if it has
- * few digits (is_short()). All other functions have none if `value` has few digits, and x is 0, 1 or -1. */
+/* Returns true if `value` has no round-off. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

@@ -28,7 +28,7 @@ enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS
 enum { FOLDING_RESTS = 256 };
 typedef struct folding {
     int way;
-    double lost;                /* largest loss, relative to an addend or a result */
+    double lost;                /* largest relative loss; 1: no digit is correct */
     int rests;                  /* number of residues */
     double rest[FOLDING_RESTS]; /* absolute values of the residues */
 } folding;
@@ -45,9 +45,9 @@ double folding_quotient(double x, double y);
 double folding_power(double base, double exponent);
 /* A sine, cosine or tangent is a residue if it is not larger than the round-off of its angle. */
 double folding_call(function_id function, double x, double y);
-/* Returns true if |left| <= part * size: then `left` counts as zero. It is the difference of two numbers, and `size` is
- * their absolute value. Records a loss if `left` counts as zero, but exceeds the round-off of a few operations. In ways
- * other than FOLDING_NEAREST, only an exact zero counts as zero. */
+/* Returns true if |left| <= part * size. `left` is a sum or difference of terms that are about as large as `size`.
+ * Records a loss if the result is true although |left| exceeds the round-off of a few operations. In ways other than
+ * FOLDING_NEAREST, returns true only if `left` is exactly zero. */
 bool folding_cancels(double left, double size, double part);
 /* folding_cancels() for x - y, with the larger absolute value as `size`. */
 bool folding_same(double x, double y, double part);

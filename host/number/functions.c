@@ -107,7 +107,7 @@ double number_floor(double x) {
 
 double number_ceiling(double x) { return -number_floor(-x); }
 
-/* Rounds to nearest. Ties go to even, or away from zero. */
+/* Ties go to even if `even` is true, else away from zero. */
 static double nearest(double x, bool even) {
     const double size = WH_ABS(x);
     if (!(size < ALL_WHOLE)) {
@@ -167,7 +167,7 @@ double number_remainder(double x, double y) {
         return x;
     }
     rest %= divisor;
-    while (exponent > by_exponent) { /* a product of 53 and 11 bits fits into 64 bits */
+    while (exponent > by_exponent) { /* `rest` has 53 bits, so a shift by 11 cannot overflow */
         const int bits = exponent - by_exponent < 11 ? exponent - by_exponent : 11;
         rest = (rest << bits) % divisor;
         exponent -= bits;
