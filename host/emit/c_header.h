@@ -21,7 +21,7 @@ typedef void c_header_body(FILE *out, const void *of);
  * The declaration has WH_LINKS_TO() of core/version.h: it links only with the .c file that belongs to this header. */
 void c_header_write(FILE *out, const image *im, const char *file, const char *form,
                     const char *type, c_header_body *body, const void *of);
-/* Writes the declaration for the scene's .c file, with WH_LINKED_AS() of core/version.h. The body is only hashed. */
+/* Writes the declaration for the scene's .c file, with WH_LINKED_AS() of core/version.h and a hash of the body. */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);
 /* The body for float and double; `of` is an image. */

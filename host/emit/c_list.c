@@ -27,7 +27,7 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
                 style->operand(out, t, o->b);
             }
             break;
-        case 'n': /* "|| b != b", which is true for NaN, unless b is a constant */
+        case 'n': /* "|| b != b", which is true if b is NaN */
             if (t->ops[o->b].code != OP_CONSTANT) {
                 fputs(" || ", out);
                 style->operand(out, t, o->b);
@@ -48,8 +48,7 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
 
 /* === the list ================================================================================= */
 
-/* Longer lists are called at each stage, not inlined. On the Cortex-M4F this costs 7 to 12 % more instructions and
- * saves about half of the flash: seven links of a pendulum take 8 instead of 15 KB, ten take 14 instead of 33. */
+/* Most operations of an inlined list. On the Cortex-M4F, calling a longer list saves about half of its flash. */
 enum { INLINED_MOST = 150 };
 
 /* In lists of at least this length, the compiler should keep the operations' order (core/step/unroll.h). On the
@@ -93,7 +92,7 @@ static void write_phase(FILE *out, const op_list *t, int i) {
     fprintf(out, "    wh_real s%d;\n    wh_real c%d;\n    wh_sincos(", i, i);
     const char *plus = write_turns(out, t, o);
     for (int k = 0; k < t->angles && o->parts != NULL; k++) {
-        if (o->parts[k] != 0.0) { /* WH_FACTOR() takes a real for double, and integers for float */
+        if (o->parts[k] != 0.0) {
             uint32_t whole;
             uint64_t part;
             char hex[HEX_SIZE];
@@ -118,7 +117,7 @@ static void write_phase(FILE *out, const op_list *t, int i) {
     }
 }
 
-/* Does the list have `code`, OP_SIN or OP_COS, of phase i? */
+/* Does the list compute `code` (OP_SIN or OP_COS) of operation i, a phase? */
 static bool takes(const op_list *t, op_code code, int i) {
     bool found = false;
     for (int k = i + 1; k < t->count; k++) {
@@ -178,7 +177,7 @@ static void write_operation(FILE *out, const op_list *t, int i) {
     } else if (row->kind == OP_IS_PHASE) {
         write_phase(out, t, i);
     } else if (row->kind != OP_IS_CONSTANT) {
-        /* a look-up in an odd table of which only half is stored: the other half has the opposite sign */
+        /* If tables.folds, only half of a table is stored. In the other half, an odd function has the opposite sign. */
         const bool mirrored = row->kind == OP_IS_LOOKUP && t->tables.folds &&
                               t->tables.odd[(int)o->value / t->tables.terms];
         fprintf(out, "    const wh_real x%d = %s", i, mirrored ? "wh_table_back(" : "");

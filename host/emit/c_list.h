@@ -30,9 +30,9 @@ typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 /* Writes the statements, with results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
 /* Writes a wh_accel_fn (if `second`) or a wh_slope_fn; with C_WAVES a wh_turned_accel_fn or a wh_turned_slope_fn.
- * `linkage`: WH_INLINE if the core calls the function at only one place, because inlining then costs no flash;
- * C_BY_POINTER if the core calls it through a pointer, because gcc -Og cannot inline such a call. If the list has too
- * many operations for inlining, `linkage` is ignored, and the function is "static". */
+ * `linkage`: WH_INLINE if the core calls the function at only one place; C_BY_POINTER if the core calls it through a
+ * pointer, because gcc -Og cannot inline such a call. If the list has too many operations for inlining, the function
+ * is "static" instead. */
 #define C_BY_POINTER "static inline"
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      const char *linkage);

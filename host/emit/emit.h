@@ -36,7 +36,7 @@ bool emit_octave_variable_is_free(const char *name);
 /* Writes the scene's header for C and C++: names of components, inputs and outputs, units, and memory. */
 void emit_c_header(FILE *out, const image *im, const char *file);
 
-/* Writes the scene as C for the core: constants, start, straight-line right-hand side, one step. */
+/* Writes the scene's .c file. */
 void emit_c(FILE *out, const image *im, const char *file);
 
 /* === a whole step as one matrix (IMAGE_MATRIX) ================================================ */
@@ -45,7 +45,7 @@ void emit_c(FILE *out, const image *im, const char *file);
 void matrix_text(FILE *out, const image *im);
 void matrix_latex(FILE *out, const image *im);
 
-/* A function file `function [Phi, Gamma, g0] = NAME()`, to the last digit, with names as in Matlab's c2d(). */
+/* Writes a function file, `function [Phi, Gamma, g0] = NAME()`. Octave and Matlab read back the exact matrices. */
 void matrix_octave(FILE *out, const image *im, const char *file);
 
 /* === the contents of an image, for programs (docs/describe.md) and for readers ================ */

@@ -33,7 +33,7 @@ static double entry(const image *im, int i, int k) {
     return im->matrix.entry[i * im->matrix.columns + k];
 }
 
-/* Writes "(X, Y, X', Y')", of columns from `first` to before `end`; with `units`, "(X [m], ...)". */
+/* Writes the names of columns `first` to `end` - 1, as "(X, X')" or, with `units`, as "(X [m], X' [m/s])". */
 static void put_names(FILE *out, const image *im, int first, int end, bool units) {
     char name[256];
     fputc('(', out);

@@ -55,7 +55,6 @@ static void write_leaf(FILE *out, const void *context, char what, int a) {
     }
 }
 
-/* A constant is written at its use. */
 static void write_operation(FILE *out, const image *im, int i) {
     const op_style style = {write_operand, write_leaf, im};
     const op_list *t = im->list[IMAGE_STEP];
@@ -73,7 +72,7 @@ static void write_operation(FILE *out, const image *im, int i) {
     fputs(";\n", out);
 }
 
-/* Writes the names of y, or its start. */
+/* Writes the start values of y's components if `start`, else their names. */
 static void write_y(FILE *out, const image *im, bool start) {
     for (int level = 0, number = 1; number <= im->angles + im->reals; level++) {
         for (int i = 0; i < im->count; i++) {
@@ -107,7 +106,7 @@ void emit_octave_head(FILE *out, const image *im, const char *file, const char *
 
 void emit_octave_end(FILE *out, const image *im) {
     const op_list *t = im->list[IMAGE_STEP];
-    bool may_be_complex = false; /* in Octave, NaN in C */
+    bool may_be_complex = false;
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
         may_be_complex = may_be_complex || o->code == OP_SQRT || o->code == OP_POW ||
@@ -146,7 +145,6 @@ void emit_octave(FILE *out, const image *im, const char *file, const char *conta
 }
 
 bool emit_octave_variable_is_free(const char *name) {
-    /* keywords; names in the generated file; functions that this file calls */
     static const char taken[] =
         "arguments break case catch classdef continue do else elseif end end_try_catch "
         "end_unwind_protect endarguments endclassdef endenumeration endevents endfor endfunction "

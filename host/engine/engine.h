@@ -1,6 +1,5 @@
-/* engine.h: the interpreter of operation lists, which runs an image without a compiler. One source is built in float,
- * bit for bit the boards' arithmetic, and in double, the reference. Both step with core/step.h. The interface has
- * doubles in both cases. */
+/* engine.h: the interpreter of operation lists, which runs an image without a compiler. It is built in float, which
+ * gives the boards' results bit for bit, and in double, as the reference. Both builds take and return doubles. */
 #ifndef ENGINE_ENGINE_H
 #define ENGINE_ENGINE_H
 
@@ -21,7 +20,7 @@ typedef struct engine_clamped {
     double begin_s; /* begin of the step with the impact, s */
 } engine_clamped;
 
-/* The motion between two events of a step, or between an event and an end of the step. */
+/* A part of a step. Events can be only at its begin and its end. */
 typedef struct engine_piece {
     double span_s;
     const double *from; /* [angles + reals] state at the begin, as engine_kind's state() gives it */
@@ -53,9 +52,9 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the residuals); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* Each step rounds the increment of a component: in fixed point to unit(); in float, of angles only, to 2^-32 turn.
-     * Returns the largest absolute value that the sum of these round-offs has had for component i, angles first: 0 in
-     * double, and with compensated sums. *span: the component's range without round-off, 0 in double. Both are SI. */
+    /* Let s be the sum of the round-offs of the increments of component i since the start. Returns the largest |s| so
+     * far, in SI. It is 0 in double or with compensated sums. In float, i must be an angle. *span: the range that the
+     * component would have had without round-off, in SI; 0 in double. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
@@ -66,8 +65,8 @@ typedef struct engine_kind {
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
-/* The work of this process, in list operations. Other work counts as the number of list operations that would take the
- * same time, within a third. The number is the same on every machine. */
+/* The work of this process so far, in list operations. Other work is converted to the number of list operations that
+ * take about the same time. The number is the same on every machine. */
 extern uint64_t engine_operations;
 /* Work for one evaluation of the accelerations, in list operations. It includes work of the method and contacts. */
 uint64_t engine_evaluation(const image *im);
@@ -79,7 +78,7 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const op_list *t);
 void evaluator_free(evaluator *ev);
-/* Wraps angles to one turn before their sines: a float run's angles may exceed the range of the double sine. */
+/* Makes the evaluator wrap angles to one turn. A float run's angles may exceed the range of the double sine. */
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);

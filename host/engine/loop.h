@@ -1,13 +1,12 @@
-/* loop.h: the one loop that steps a run, and the budget of its checks. Only host/pil/plant.c steps by itself, because
- * firmware paces it. tests/house.sh refuses other loops. */
+/* loop.h: the loop that steps a run, and the budget of the run's checks. Only host/pil/plant.c has its own loop,
+ * because there the firmware determines when a step is made. */
 #ifndef ENGINE_LOOP_H
 #define ENGINE_LOOP_H
 
 #include "engine.h"
 
 /* All checks of a run share one budget of operations: the larger of BUDGET_LEAST and the run's own operations. A check
- * ends when the budget is exhausted. In order of importance: the balance and the monitors, at each step; the finer run;
- * poles and missed contacts; the third run for aliasing; remedies; the rows of accuracy and cost. */
+ * ends when the budget is exhausted. */
 typedef struct budget {
     uint64_t own;   /* operations of the run's steps so far */
     uint64_t spent; /* operations of completed checks */
@@ -27,7 +26,7 @@ typedef struct loop {
     void *run; /* started, and stopped, by the caller */
     uint64_t steps;
     budget *own;        /* counts the operations of the steps; NULL: unused */
-    const budget *pays; /* the steps must stay within this budget; NULL: no limit */
+    const budget *pays; /* the loop ends when this budget is exhausted; NULL: no limit */
     /* Called at the start and after each step; false ends the loop. NULL: no call. */
     bool (*see)(void *of, uint64_t step);
     void *of;

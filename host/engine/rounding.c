@@ -6,13 +6,13 @@
 #include "host/base/alloc.h"
 
 #define FLOAT_MOST 0x1.fffffep127 /* larger values are infinite in float */
-#define ALL_LOST 0x1p24           /* relative error of a quotient by infinity, in unit round-offs */
+#define ALL_LOST 0x1p24           /* relative error of 1, in unit round-offs of float */
 
 static bool is_beyond(const rounding_values *at, double value) {
     return at->least > 0.0 && fabs(value) > FLOAT_MOST;
 }
 
-/* The round-off of an OP_PHASE: the sum of its terms' magnitudes, as each is rounded. `more`: error of operand b. */
+/* The error of an OP_PHASE. Each of its terms is rounded. `more`: error of operand b. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {
@@ -53,9 +53,9 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_RADIANS:
     case OP_NOISE:
     case OP_CELL:
-    case OP_SIGN: return 0.0; /* the slope of a sign is zero, except at the jump */
+    case OP_SIGN: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
-    /* |v| stands for the round-off of the position in the table. The interpolation error is not included. */
+    /* The interpolation error is not included. */
     case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);

@@ -18,9 +18,8 @@ typedef struct rounding_values {
  * 2^-24 in float). Products of errors are neglected.
  *
  * This is a running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3).
- * Each operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference of
- * large terms has an error in proportion to the terms. The state counts as exact. The bound is infinite or NaN if an
- * operation has no slope. */
+ * An operation multiplies its operands' errors by its partial derivatives, and adds its own round-off. The state is
+ * assumed to be exact. The bound is infinite or NaN if a derivative is not finite. */
 void rounding_of(const op_list *t, const rounding_values *at, double *error);
 
 #endif

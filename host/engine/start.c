@@ -31,7 +31,6 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
     return text;
 }
 
-/* Appends the methods that support only the systems `takes`, and then the text `what`. */
 static void put_only(char text[METHODS_TEXT_SIZE], uint8_t takes, const char *what) {
     const char *before = "; ";
     for (int i = 0; i < WH_METHODS; i++) {
@@ -58,7 +57,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 
 /* === checks of the start ====================================================================== */
 
-#define ROUNDING 1e-9 /* m or rad; unit conversion may put a start so far beyond a stop */
+#define ROUNDING 1e-9 /* largest distance beyond a stop that counts as round-off, m or rad */
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {
     static const char hint[] = "start on the stop or on its free side, or leave the stop out";

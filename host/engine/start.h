@@ -12,12 +12,11 @@ enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS }; /* room for all methods in a 
 /* Writes the methods that support all systems of this form, such as "euler, heun or rk4". Returns `text`. */
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
 
-/* Writes the names of all methods. The default is first and marked. The methods that do not support all systems are
- * last, after semicolons. Returns `text`. */
+/* Writes the names of all methods, with their restrictions. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
-/* Returns false, and reports each error: a stop that is passed at the start by more than round-off, an undefined gap,
- * or an angle outside the range of this number type. */
+/* Returns false, and reports each error, if the start is beyond a stop, a stop's distance is not finite, or a start
+ * angle is outside the range of this number type. */
 bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
 /* Returns false, and reports each error, if float, as in generated C, cannot represent a start angle. */

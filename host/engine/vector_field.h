@@ -12,7 +12,7 @@ typedef struct vector_field {
     int n;           /* components of the state */
     state_list list; /* list of the role IMAGE_BOOKS */
     int *
-        next; /* [n] the component that is component i's slope; -1 - u: the highest derivative of unknown u */
+        next; /* [n] slope[i] is x[next[i]]; if next[i] < 0, it is result -1 - next[i] of the list instead */
 } vector_field;
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind);
