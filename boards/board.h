@@ -23,12 +23,12 @@ void board_start(void);
 _Noreturn void board_exit(int code);
 #endif
 
-/* A free-running clock, which counts up and wraps at 2^32, and its constant rate. In an emulator it has the emulator's
- * time: good for timeouts, useless for measuring speed. */
+/* Returns the time of a free-running clock, which counts up at the rate board_ticks_per_s, and wraps at 2^32. An
+ * emulator counts its own time, so do not measure the speed of code with it. */
 uint32_t board_ticks(void);
 extern const uint32_t board_ticks_per_s;
 
-/* Waits until the clock reaches `ticks`, less than half of its range ahead. Returns at once if `ticks` has passed. */
+/* Waits until board_ticks() reaches `ticks`, less than 2^31 ticks from now. Returns at once if `ticks` has passed. */
 void board_wait_until(uint32_t ticks);
 
 /* Opens the console for input (hal_console_read()); on the PC a pseudo-terminal, whose name it prints. If that fails,
@@ -44,7 +44,7 @@ uint32_t board_cycles(void);
 uint32_t board_chip(void);
 
 /* The start-up code and board_stack_paint() fill the unused part of the stack with a pattern. board_stack_used_bytes()
- * returns the largest use of the stack since then. Both sizes are 0 on the PC. */
+ * returns the largest use of the stack since the last fill. On the PC, the last two functions return 0. */
 void board_stack_paint(void);
 unsigned board_stack_used_bytes(void);
 unsigned board_stack_size_bytes(void);

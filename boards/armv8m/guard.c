@@ -23,7 +23,7 @@ void board_guard_stack(void) {
     REGISTER(MPU_RBAR) = strip | read_only_privileged | no_execute;
     REGISTER(MPU_RLAR) =
         ((strip + BOARD_STRIP_BYTES - 1U) & ~31U) | 1U; /* last 32 bytes; attribute 0; enabled */
-    /* The default map applies outside the region; hard-fault and NMI handlers run unprotected. */
+    /* The default map applies outside the region, and in hard-fault and NMI handlers. */
     REGISTER(MPU_CTRL) = 1U << 2 | 1U;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }

@@ -51,7 +51,7 @@ extern volatile uint8_t atmega_wraps;
 /* Returns the time at which both timers showed `count`, less than half a wrap ago. Call it within an interrupt. */
 static inline atmega_instant atmega_instant_of(uint16_t count) {
     atmega_instant at = {count, atmega_wraps};
-    /* read before the wrap's flag, so a wrap after this line does not matter */
+    /* TCNT4 is read before TOV4, so that a wrap between both reads does no harm */
     const uint16_t now = TCNT4;
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
     if (count >= 0x8000U && now < 0x8000U) { /* `count` was before the last wrap */
@@ -77,8 +77,7 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* Returns ATMEGA_WHOLE divided by the supply voltage in volts (0: no supply). Taking a load sample computes the
- * quotient (cell.c), because some control steps have no time for a division. */
+/* Returns ATMEGA_WHOLE / (supply voltage in V), or 0 without a supply. Only hal_loadcell_take() updates it. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 

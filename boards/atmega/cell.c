@@ -1,12 +1,11 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us, sixteen of the cell, then 24 of the supply: 8 ms. A sample is the mean of
- * the sixteen, with the time stamp of their middle, so it has no delay. Averaging makes a force that rotates at 6 Hz
- * 0.06 % too small. One count of the converter is 0.434 N. The mean's round-off is up to half a count, 0.22 N, if the
- * force is constant. It is 0.03 N if the force changes by several counts during the sixteen conversions.
+ * Timer 2 starts a conversion every 200 us. A period of 8 ms has sixteen conversions of the cell, then 24 of the
+ * supply. A sample is the mean of the sixteen. Its time stamp is their middle. If a force rotates at 6 Hz, averaging
+ * makes it 0.06 % too small. One count of the converter is 0.434 N. A constant force has a round-off of up to 0.22 N.
  *
- * Without force, the amplifier's output is half of the reference, the chip's supply; near either end the amplifier is
- * saturated. If all counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. */
+ * The reference is the chip's supply. Without force, the amplifier's output is half of the reference. If a wire is
+ * broken, a resistor pulls the pin to ground. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -36,7 +35,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 /* clock divided by 128: 125 kHz */
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0))
 
-/* A sum of supply conversions gets the bit SUPPLY_BEYOND if one of them is above SUPPLY_END, the converter's end. */
+/* A sum of supply conversions gets the bit SUPPLY_BEYOND if one of them is above SUPPLY_END. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)
@@ -60,7 +59,7 @@ static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Only the interrupts use these variables. `place` counts all conversions that have ended in the present 8 ms. */
+/* Only the interrupts use these variables. `place` counts the conversions that have ended in this period. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;
@@ -86,7 +85,7 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* Stores a sample. TIMER2_COMPA does not, because it would save more registers. TCNT2 is the time since the tick. */
+/* Stores a sample. In TIMER2_COMPA, this would save more registers at every tick. TCNT2 is 0 at a tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);

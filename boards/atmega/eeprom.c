@@ -32,7 +32,7 @@ static uint8_t load(uint16_t address) {
     return byte;
 }
 
-/* The chip requires the second store within four clocks of the first. Returns false if the byte reads back wrong. */
+/* EEPE must be set within four clocks after EEMPE. Returns false if the byte reads back wrong. */
 static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     if (!rests()) {
         return false;

@@ -1,6 +1,6 @@
 /* fault.c: faults on a chip without fault hardware. The software detects an interrupt without a handler, a stack that
- * has reached the variables, and a restart without a reset: a wild jump into erased flash continues at address 0. The
- * interrupt handler and the start-up code first clear the enable's pin. This needs no register and no stack. */
+ * has reached the variables, and a restart without a reset. (A wild jump into erased flash continues at address 0.) The
+ * handler BADISR_vect and the start-up code begin with OFF, which needs no register and no stack. */
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -18,7 +18,7 @@ __attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
 /* MCUSR at the start, in memory that the start-up code does not clear afterwards. */
 __attribute__((section(".noinit"))) static volatile uint8_t flags;
 
-/* Stores and clears MCUSR: while its watchdog flag is set, the watchdog keeps resetting, every 16 ms. */
+/* Stores and clears MCUSR, then stops the watchdog, which cannot be stopped while WDRF in MCUSR is set. */
 __attribute__((used)) void atmega_see_reset(void);
 __attribute__((used)) void atmega_see_reset(void) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);

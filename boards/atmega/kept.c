@@ -7,7 +7,6 @@
 
 BOARD_KEPT static atmega_fault_record fault;
 
-/* 16 bits suffice: reset.c ignores the record after a power-on, when the memory is random. */
 static uint16_t sum_of_fault(void) {
     return (uint16_t)(wh_frame_crc(BOARD_KEPT_CRC_START, &fault.kind,
                                    offsetof(atmega_fault_record, sum)));

@@ -1,6 +1,6 @@
-/* motor.c: the drive stage: timer 1 as a phase-correct PWM of 20 kHz on OC1A (DS 17.9.4), and the enable on a pin.
- * While the timer does not drive OC1A, its pin is low. The PWM has 400 steps of 60 mV at 24 V. The rounding error of
- * the voltage is added to the next control step's voltage, so the mean is exact. */
+/* motor.c: the drive stage. Timer 1 is a phase-correct PWM of 20 kHz on OC1A (DS 17.9.4); another pin is the enable.
+ * The PWM has 400 steps, of 60 mV each if the supply has 24 V. The rounding error of the voltage is added to the next
+ * control step's voltage, so the mean is exact. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -14,9 +14,9 @@ _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 static volatile bool driving; /* an interrupt may clear it, too */
 static uint16_t carried;      /* rounding error for the next control step, in parts */
 
-/* Sets timer 1 to duty 0 with OC1A low and disconnected. Until this is done, the pin is an input, because OC1A may be
- * high since it was last disconnected. Only a strobe in normal mode changes it (DS 17.7.1, 17.8), and only in normal
- * mode does OCR1A take effect at once. ICR1 is writable only in modes that use it as TOP (DS 17.6). */
+/* Sets timer 1 to duty 0, with OC1A low and disconnected. OC1A may be high before, so the pin is an input until then.
+ * In PWM modes, FOC1A would not change OC1A (DS 17.7.1, 17.8), and OCR1A would not take effect at once. ICR1 is
+ * writable only in modes that use it as TOP (DS 17.6). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;
@@ -54,7 +54,7 @@ unsigned hal_motor_start(void) {
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        /* OCR1A has an old duty if an interrupt has called hal_motor_off() in hal_motor_set_voltage() */
+        /* if hal_motor_off() interrupted hal_motor_set_voltage(), OCR1A still has an old duty */
         set_up_timer();
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
@@ -75,7 +75,6 @@ void hal_motor_set_voltage(float volts) {
     OCR1A = steps;
 }
 
-/* For coasting, the enable is cleared before all else, as after a fault (fault.c). */
 void hal_motor_off(hal_motor_off_way way) {
     if (way != HAL_MOTOR_BRAKE) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);

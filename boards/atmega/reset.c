@@ -10,7 +10,7 @@ static hal_reset cause;
 static bool known;
 static atmega_fault_record fault;
 
-/* At power-on any flag may be set. After a fault the watchdog's flag is set. Without a flag there was no reset. */
+/* The order matters: at power-on, other flags may be set, too, and a fault ends with a reset by the watchdog. */
 static hal_reset cause_of(uint8_t flags, bool faulted) {
     if ((flags & _BV(PORF)) != 0) {
         return HAL_RESET_POWER_ON;
@@ -34,7 +34,7 @@ hal_reset hal_reset_cause(void) {
         const bool faulted = atmega_take_fault(&fault);
         cause = cause_of(flags, faulted);
         if (cause == HAL_RESET_POWER_ON) {
-            atmega_forget(); /* memory survives a short power failure */
+            atmega_forget(); /* the record may have survived a short power failure */
         }
     }
     return cause;

@@ -7,7 +7,7 @@
 
 #include "atmega.h"
 
-/* The motor first, so that it is off even if later parts fail. */
+/* atmega_motor_start() comes first, so that the motor is off even if a later function fails. */
 bool hal_clock_start(void) {
     atmega_motor_start();
     (void)hal_reset_cause();

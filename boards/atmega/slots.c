@@ -1,9 +1,8 @@
 /* slots.c: the slot sensors on the input captures of timers 4 and 5. Each timer stores the time of an edge in hardware
  * (DS 17.6): a rising edge, then a falling edge, and so on. The noise canceller requires four equal samples, 0.25 us.
  *
- * A new capture overwrites one that was not read yet, and the chip does not report this. If a pulse ends before the
- * interrupt has read its first edge, its second edge is lost. Overruns count edges that found the memory full, and
- * pulses that began before the interrupt had read the end of the last pulse. */
+ * If a pulse ends before the interrupt has read the pulse's first edge, the second edge is lost. Overruns count the
+ * edges that found kept[] full, and the pulses whose first edge was lost. */
 #include "hal/slots.h"
 
 #include "atmega.h"
@@ -70,8 +69,7 @@ static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *f
     *flags = _BV(ICF4);
 }
 
-/* Returns the captured edge, coded like kept_edge.of. Makes the timer capture the opposite edge or, if that has
- * passed, the edge after it. If more edges pass than the loop checks, hal_slots_take() makes it await a pulse. */
+/* Returns the captured edge, coded like kept_edge.of. Makes the timer wait for the first edge that has not passed. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);

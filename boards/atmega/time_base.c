@@ -54,7 +54,7 @@ uint32_t atmega_ticks_of(atmega_instant at) {
     const uint32_t base = base_ticks;
     const uint8_t wraps = atmega_wraps;
     atmega_go_on(before);
-    const int8_t ago = (int8_t)(wraps - at.wraps); /* -1: the last wrap is not counted yet */
+    const int8_t ago = (int8_t)(wraps - at.wraps); /* -1: `at` is after an uncounted wrap */
     return base - (uint32_t)((int32_t)ago * (int32_t)TICKS_PER_WRAP) +
            at.count / ATMEGA_COUNTS_PER_TICK;
 }

@@ -1,5 +1,5 @@
-/* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity,
- * with interrupts and a ring for each direction. After a fault, or before other parts have started, it polls. */
+/* usart.c: the console on USART 0 (8 bits, no parity), with interrupts and a ring for each direction. Its double speed
+ * mode gives 117,647 baud, 2.1 % more than 115,200 baud (DS 22.11). hal_console_write() polls. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -16,8 +16,7 @@ static volatile uint8_t in_head; /* only the interrupt changes it */
 static volatile uint8_t in_tail;
 static volatile char out[OUT_BYTES];
 static volatile uint8_t out_head;
-/* Only the interrupt uses it, or code that has disabled the interrupt. */
-static volatile uint8_t out_tail;
+static volatile uint8_t out_tail; /* changes only while interrupts are off */
 static volatile bool lost;
 
 void atmega_usart_start(void);
@@ -38,7 +37,7 @@ static void keep(char byte) {
     }
 }
 
-/* Stores a zero instead of a damaged byte. Stores one zero if an overrun or a full ring lost bytes (hal/console.h). */
+/* Stores a zero for a damaged byte, and one zero for a loss of bytes (hal/console.h). */
 ISR(USART0_RX_vect) {
     const uint8_t status = UCSR0A;
     const char byte = (char)UDR0;

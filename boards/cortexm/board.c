@@ -15,9 +15,8 @@ void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, co
 
 bool board_converse(void) { return true; }
 
-/* The default is CPUID. A chip that has a register with its device and revision defines its address here. */
 #ifndef BOARD_CHIP_ID
-#define BOARD_CHIP_ID 0xE000ED00U
+#define BOARD_CHIP_ID 0xE000ED00U /* CPUID */
 #endif
 uint32_t board_chip(void) { return reg_load(BOARD_CHIP_ID); }
 

@@ -110,7 +110,7 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     }
     firmware->frequency = all->hz;
     avr_load_firmware(avr, firmware);
-    uint32_t flags = 0; /* simavr neither prints the output nor sleeps while the program polls */
+    uint32_t flags = 0; /* simavr must not print, and must not sleep while the program polls */
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
                             on_byte, NULL);
@@ -130,8 +130,7 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
     exit(WENT_WRONG);
 }
 
-/* A program sets the stack pointer in two bytes, between which the pointer may be invalid for two instructions. */
-#define TORN_INSTRUCTIONS 2U
+#define TORN_INSTRUCTIONS 2U /* instructions for which the stack pointer may be half written */
 
 /* Executes one instruction. Returns false if the program has ended. */
 static bool step(avr_t *avr) {
@@ -151,7 +150,7 @@ static bool step(avr_t *avr) {
     return state != cpu_Done;
 }
 
-/* Intervals that are reported together: the largest of their counts, and the sums (`all`, `all_cycles`). */
+/* Intervals reported together: `instructions` and `cycles` are maxima, `all` and `all_cycles` are sums. */
 typedef struct group {
     uint64_t members;
     uint64_t instructions, cycles;
