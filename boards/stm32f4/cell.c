@@ -114,7 +114,7 @@ static bool follows(const hal_load_sample *before, const hal_load_sample *sample
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* Delivers `last` as a sample, corrected with the mean before it and the new `mean`. Then `mean` becomes `last`. */
+/* Corrects the mean `last` with the means before and after it (`mean`), delivers it, and sets `last` to `mean`. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {

@@ -87,7 +87,6 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                     w->mode[k] = (int8_t)-w->mode[k];
                     /* never 0, because 0 means that the crossing has not turned back */
                     w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
-                    /* larger for a second derivative, which may vanish soon, for example if friction sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }

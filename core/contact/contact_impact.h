@@ -134,8 +134,8 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Returns, as bits, free stops that touch, have no restitution and are nearly at rest. They take part in the impact of
- * `hits`, because separate plastic impacts of two such stops could cause each other for ever. */
+/* Bits: the free stops that touch without restitution and nearly at rest. They take part in the impact of the stops
+ * `hits`: if two such stops had separate impacts, each could cause the next one of the other for ever. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -384,8 +384,9 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* After a capture, the condition of a hold in `holds` (bits) may be negative by the error of location. Moves the held
- * expression until the condition is positive. rates[]: signals before the capture. signal[]: signals at `s`. */
+/* The time of a capture has an error. So afterwards the condition of a hold (bits: `holds`) may be slightly negative.
+ * This function moves the held expression until the condition is positive. rates[]: signals before the capture.
+ * signal[]: signals at `s`. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {

@@ -26,7 +26,8 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Returns by how many ticks a pulse is early, if expected `turn` ticks after its sensor's last one; 0 if unknown. */
+/* The pulse is expected `turn` ticks after the previous pulse of its sensor. Returns by how many ticks it is early, or
+ * 0 if the previous pulse is unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -130,7 +131,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
-/* True if the last pulse's sensor fires again within the fraction `part` of a turn of `turn` ticks. */
+/* Did the sensor of the last pulse fire again before `part` times `turn` ticks had passed? */
 static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part,
                                  wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;

@@ -95,7 +95,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
     x[WH_FREE_GRAVITY] = gravity;
-    /* The amplitude is at first about 2.3 sine. Each of 2 passed + 1 quarter swings reduces it by friction/gravity. */
+    /* The first amplitude, about 2.3 sine, is lost in 2 passed + 1 quarter swings: friction/gravity in each of them. */
     x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_FREE_Q] =

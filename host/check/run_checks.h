@@ -15,7 +15,7 @@ typedef struct finding {
     bool reported;
     double value;  /* measured, in the unit of its finding_row */
     double at_s;   /* when the problem occurs or begins, s; below 0: in the whole run */
-    int component; /* accuracy, aliased: index of a column; missed: missed_found.what; else -1 */
+    int component; /* accuracy and aliased: the column; missed: its missed_found.what; else -1 */
 } finding;
 
 typedef struct run_checks {

@@ -19,7 +19,7 @@ static const command_usage usage = {
     .why = {"", "the file was not written completely",
             "NAME is not a valid name, or NAME.whirl exists"}};
 
-/* A printf() format. Its arguments: the mechanism's name; the scene's name, which is the same name and `suffix`. */
+/* A printf() format for three strings: the mechanism's name, this name again, and the suffix of the scene's name. */
 static const char template[] =
     "# One mechanism: coordinates, constants, energies. Values carry their units.\n"
     "mechanism %s \"A pendulum on a cart\"\n"

@@ -163,7 +163,7 @@ typedef struct own_option {
     const char *hint;
     double *strict; /* gets the limit of --strict, --strict=off or --strict=LIMIT */
     bool *flag;     /* set by an option without a value */
-    bool is_bare;   /* an option without a value: text gets its word */
+    bool is_bare;   /* the option has no value: *text is set to the option's word */
 } own_option;
 
 /* Initializers of own_option, with `to` as the variable that gets the number. */

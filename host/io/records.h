@@ -47,9 +47,9 @@ bool records_write(const records *r);
  * above its value. An event marks the instant of an impact at a stop, or of a crossing of a `when`. If a step has more
  * than WH_EVENT_LOG events (core/state.h), the dump has only the first ones. */
 
-/* Sets *power. The dump's unit of time is 10^-power s, and a step has at least 1000 units. A step has fewer if *power
- * would exceed VCD_FINEST, or the run would have 2^52 units. Returns false if a step would be shorter than one unit, or
- * the run takes 2^52 s or more. */
+/* Sets *power: the dump's unit of time is 10^-power s. If possible, a step has at least 1000 units. *power is at most
+ * VCD_FINEST, and the run has less than 2^52 units. Returns false if a step is then shorter than one unit,
+ * or if the run takes 2^52 s. */
 bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;

@@ -55,8 +55,8 @@ enclosure enclosure_pi(void) { return (enclosure){0x1.921fb54442d18p+1, 0x1.921f
 /* Number of terms of the series, for arguments from -1 to 1. */
 enum { TERMS = 13 };
 
-/* Encloses the sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)) over i, for t = x^2 from 0 to 1: cos x if
- * `from` is 0, sin(x) / x if `from` is 1. The terms alternate and fall, so the first omitted term bounds the error. */
+/* For t = x^2 from 0 to 1: encloses the series of cos x (`from` is 0) or of sin(x) / x (`from` is 1). Its terms have
+ * alternating signs and become smaller, so the first omitted term bounds the error. */
 static enclosure waves(enclosure t, int from) {
     enclosure sum = {0.0, 1.0};
     for (int i = TERMS; i > 0; i--) {

@@ -111,7 +111,7 @@ char *table_derive_line(const trials *t, const setting *s, deviation_pace pace);
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point);
 
 /* === counted prices =========================================================================== */
-/* Prices counted in Whirl's source tree by table_measure_line(), with the board's compiler and emulator. */
+/* These prices are counted by the command of table_measure_line(), with the board's compiler and emulator. */
 
 typedef enum measured_end {
     MEASURED_COUNTED,

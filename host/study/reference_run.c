@@ -75,7 +75,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 #define FINER 4.0    /* the first step is this many times shorter than the scene's */
 #define FINEST 16.0  /* the last step is at most this many times shorter than the scene's */
 #define LAST 256.0   /* replaces FINEST while each halving of the step doubles the trusted time */
-#define ENOUGH 1e-11 /* halving ends if the runs differ by this part of each `largest` or less */
+#define ENOUGH 1e-11 /* halving ends if no column differs by more than this part of its `largest` */
 /* A record is trusted if the two runs differ by at most this part of each column's largest value. */
 #define LIMIT 1e-9
 /* A column is known if the two runs still agree when its magnitude reaches this part of its largest value. */
