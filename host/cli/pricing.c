@@ -572,7 +572,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
         if (is_short) {
             fprintf(
                 stderr,
-                "whirl choose: error: errors are known only until t = %.6g s, less than half of the motion of %.6g s\nhint: --horizon %.6gs\n",
+                "whirl choose: error: errors are known only until t = %.6g s, which is less than half of the motion (%.6g s)\nhint: --horizon %.6gs\n",
                 horizon_s, p->until_s, horizon_s);
         }
     }

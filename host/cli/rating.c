@@ -315,8 +315,8 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
     }
     trial_step_text(t, pace, text);
     char *longer = find_unwarned(t, s, at, &pace, &r)
-                       ? alloc_words("; a step of %s s would keep the error, too, but has "
-                                     "warnings",
+                       ? alloc_words("; a step of %s s would also stay within the error, "
+                                     "but has warnings",
                                      text)
                        : alloc_words("%s", longest ? "; longer steps were not tried" : "");
     *step = alloc_words("%s", trial_step_text(t, pace, text));

@@ -281,11 +281,10 @@ static bool find_column(trials *t) {
         return false;
     }
     if (noisy) {
-        fprintf(
-            stderr,
-            "whirl: error: %s has noise, which would count as an error of the step\n"
-            "hint: choose a quantity without noise, or leave out the effect that adds it with --without EFFECT\n",
-            t->request.of);
+        fprintf(stderr,
+                "whirl: error: %s has noise, which would count as an error of the step\n"
+                "hint: choose a quantity without noise, or leave out the noise: --without EFFECT\n",
+                t->request.of);
         return false;
     }
     return true;

@@ -262,7 +262,7 @@ static bool check_chosen(dice *d, const rated *r) {
     const char *chosen = strstr(what.out, "chosen step"); /* another sentence may come first */
     TEST_ASSERT_NOT_NULL_MESSAGE(chosen, what.out);
     TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
-    const char *longer = strstr(chosen, " s would keep the error, too, but has warnings\n");
+    const char *longer = strstr(chosen, " s would also stay within the error, but has warnings\n");
     const bool warned = strstr(what.err, "warning") != NULL;
     TEST_ASSERT_TRUE_MESSAGE(warned <= (strstr(chosen, "this step keeps --error") != NULL),
                              what.err);
