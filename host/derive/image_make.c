@@ -202,8 +202,9 @@ static void take_drives(image_draft *d, const layout *map) {
         const symbol *input = e->unknowns[i].symbol->driven;
         if (input != NULL) {
             const int *at = &map->real_number[i * map->order_room];
-            im->drive[im->drives++] = (image_drive){input_number(map, input),
-                                                    input_number(map, input->rate), at[0], at[1]};
+            im->drive[im->drives++] =
+                (image_drive){input_number(map, input), input_number(map, input->rate), at[0],
+                              at[1], input->rate->rate != NULL};
         }
     }
 }

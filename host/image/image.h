@@ -134,6 +134,7 @@ typedef struct image_drive {
     int rate; /* index of the rate, which is also an input */
     int value_at;
     int rate_at;
+    bool rate_moves; /* the rate has a rate, too */
 } image_drive;
 
 /* The unknown of a component of the state, and the order of its derivative. */

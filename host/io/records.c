@@ -239,7 +239,8 @@ static void name_contacts(traces *w) {
 static bool is_column(const image *im, int input) {
     bool is = false;
     for (int i = 0; i < im->drives; i++) {
-        is = is || im->drive[i].input == input;
+        const image_drive *d = &im->drive[i];
+        is = is || d->input == input || (d->rate == input && d->rate_moves);
     }
     return is;
 }

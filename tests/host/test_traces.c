@@ -203,6 +203,7 @@ static derived scene_of_bodies(const bodies *b) {
              "step %u [ms]; until 0.9 [s] }\n",
              b->inputs ? "input u = 3 [kN] \"pulls\"\ninput v = 2\n"
                          "input r rate q = 1 [m]\ninput q = 0.25 [m/s]\n"
+                         "input g rate h = 1 [m]\ninput h rate k = 0 [m/s]\ninput k = 1 [m/s^2]\n"
                        : "",
              b->restitution, b->normal_N, b->holds_m, b->crosses_m, b->turns_radps,
              b->titled ? " \"a title\"" : "", b->height_m, b->slides_mps, b->passes_mps,
@@ -271,6 +272,8 @@ TEST(traces, moments) {
             expect_changes("v", &at_start, (const double[]){2.0}, 1, units_per_s);
             expect_changes("q", &at_start, (const double[]){0.25}, 1, units_per_s);
             in_head(" r $end\n"); /* once: the input with a rate is a column */
+            TEST_ASSERT_NULL(strstr(dump.head, " h $end\n")); /* its changes are in der(g) */
+            in_head(" k $end\n");
             const int moves = signal_named("r");
             double last = 1.0;
             for (int i = 0; i < dump.changes; i++) {
