@@ -21,7 +21,7 @@ void write_error_say(const char *name) {
             : reason != 0   ? strerror(reason)
                             : "only a part was written");
     const char *slash = strrchr(name, '/');
-    if (reason == ENOENT && slash != NULL) {
+    if (reason == ENOENT && slash != NULL && name[0] != '-' && strchr(name, '\'') == NULL) {
         fprintf(stderr, "hint: mkdir -p '%.*s'\n", (int)(slash - name), name);
     }
 }
