@@ -439,7 +439,7 @@ static void say_remedy(FILE *out, const run_checks *v) {
         break;
     case REMEDY_UNTRIED:
         if (im->fixed != NULL) {
-            fputs("hint: try a smaller --step, or --number double (Whirl tried neither)\n", out);
+            fputs("hint: try another --step, or --number double (Whirl tried neither)\n", out);
         }
         break;
     case REMEDY_NONE:
@@ -488,7 +488,11 @@ void findings_say(FILE *out, const run_checks *v, bool fails) {
     }
     if ((fails || (v->warned & ~FINDING_OF_SCENE) != 0 || is_reported(v, FINDING_MASS)) &&
         !say_cause(out, v)) {
-        say_remedy(out, v);
+        if (fails) { /* remedies are tried for the limits of warnings, not for that of --strict */
+            fputs("hint: try a smaller --step\n", out);
+        } else {
+            say_remedy(out, v);
+        }
     }
     slow_say(out, v->image, v->kind, v->run);
 }

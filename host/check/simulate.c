@@ -94,15 +94,13 @@ static void tell_energies(simulation *sim) {
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
-    int i = 0;
-    while (i < own && isfinite(value[i])) {
-        i++;
+    for (int i = 0; i < own && sim->output < 0; i++) {
+        if (!isfinite(value[i])) {
+            sim->output = i;
+            sim->output_s = time_s;
+        }
     }
-    if (i < own && sim->output < 0) {
-        sim->output = i;
-        sim->output_s = time_s;
-    }
-    sim->output_rows += i < own ? 1 : 0;
+    sim->output_rows += sim->output >= 0 && !isfinite(value[sim->output]) ? 1 : 0;
 }
 
 static void tell_outputs(simulation *sim) {
@@ -469,7 +467,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
                                                  sim.records,
                                                  sim.said,
                                                  outcome->until_s,
-                                                 result == SIMULATION_FAILED,
+                                                 result == SIMULATION_FAILED || s->strict > 0.0,
                                                  simulation_status(result, outcome),
                                                  {s->csv, s->columns, s->vcd, s->plot}});
         }

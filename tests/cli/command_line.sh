@@ -232,6 +232,20 @@ for words in 'run --csv' 'run --columns' 'run --vcd' 'run --plot' 'plot --out' '
     exits 2 'folder.svg: error: cannot be written' $words "$scratch/folder.svg" epicyclic_from_rest --until 20ms
     [ ! -c /dev/full ] || exits 1 'full.svg' $words "$scratch/full.svg" epicyclic_from_rest --until 20ms
 done
+for folder in -no "it's"; do # names that the hint would have to escape
+    "$whirl" run epicyclic_from_rest --until 20ms --csv "$folder/x.csv" >"$scratch/out" 2>&1
+    [ $? -eq 2 ] && ! grep -q hint "$scratch/out"
+    verdict $? "$folder: no mkdir that a shell would refuse" "$scratch/out"
+done
+printf "mechanism m\\ncoordinate x [m]\\nT = 1 [kg]*x'^2/2\\nV = 50 [N/m]*x^2\\nscene s { start x = 1 [m]; step 10 [ms]; until 2 [s] }\\n" >"$scratch/osc.whirl"
+"$whirl" run "$scratch/osc.whirl" --strict=1e-9 --json >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && ! grep -q '(tried)' "$scratch/err" && grep -q '"error": "the energy balance fails' "$scratch/out"
+verdict $? "a limit of --strict: the error in --json, and no remedy that was tried for other limits" "$scratch/err"
+for many in 2 5 9; do # records until the first output is finite; the second never is
+    printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x%s^2/2\noutput a = 1/max(0, x/1 [m] - %s.5)\noutput b = sqrt(-1 - (x/1 [m])^2)\nscene s { start x%s = 1 [m/s]\nstep 1 [s]\nuntil 20 [s] }\n' \
+        "'" $((many - 1)) "'" >"$scratch/two.whirl"
+    exits 1 "and in $((many - 1)) more records. the output 'a'" run "$scratch/two.whirl" --csv "$scratch/two.csv"
+done
 for plot in x.gif '' -; do
     exits 2 "plot draws .svg, .pdf and .png files, not '$plot'" run thomson_a --plot "$plot"
 done

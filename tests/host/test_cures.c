@@ -181,7 +181,7 @@ TEST(cures, fixed_point_has_an_untried_remedy) {
             COMMAND_SAY(command_run, &what, model_keep(text), "--number", "fixed");
             TEST_ASSERT_TRUE_MESSAGE((strstr(what.err, "warning") == NULL) == finer, what.err);
             TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "none removes"), what.err);
-            TEST_ASSERT_TRUE_MESSAGE(finer || strstr(what.err, "try a smaller --step") != NULL,
+            TEST_ASSERT_TRUE_MESSAGE(finer || strstr(what.err, "try another --step") != NULL,
                                      what.err);
         }
     }
