@@ -282,8 +282,7 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
     }
     if (r->problem != NULL || !r->lookup(r->context, stem, index, primes, &found)) {
         r->at = r->problem == NULL ? from : r->at;
-        return fail_named(
-            r, "no symbol of the mechanism and no function of tests/host/latex_value.c", stem);
+        return fail_named(r, "no symbol of the mechanism and no function of this file", stem);
     }
     return found;
 }
@@ -292,7 +291,7 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
 static latex_number called(reader *r, const char *name) {
     const function *f = function_called(name);
     if (f == NULL) {
-        return fail_named(r, "no function of tests/host/latex_value.c", name);
+        return fail_named(r, "no function of this file", name);
     }
     latex_number exponent = latex_constant(1.0, 0.0);
     const bool raised = take(r, "^");
