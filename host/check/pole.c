@@ -779,7 +779,8 @@ void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *
     }
     const uint64_t steps = kind->steps(run);
     uint64_t overruns;
-    const uint64_t events = kind->events(run, &overruns) + overruns;
+    uint64_t events = kind->events(run, &overruns);
+    events += overruns;
     bool changed = false;
     const bool looks = steps > 0 && !j->blind;
     memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);

@@ -45,8 +45,7 @@ typedef struct pole_way {
     void *of;
     int signs;
     int values;
-    const double
-        *nearest; /* [signs] smallest tested distance from a zero, as a share of the path */
+    const double *nearest; /* [signs] smallest tested distance from a zero, in shares of the path */
     /* Evaluates the divisors (sign[signs]) and expressions (value[values]) at this share of the path, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;

@@ -239,10 +239,10 @@ static void rounded_look(rounded *r, const void *run) {
     evaluator_rounding(r->list.evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
         const component c = image_component(im, i);
-        const bool
-            is_solved_for = /* a highest derivative, which comes from solving the equations */
+        /* the highest derivatives come from solving the equations */
+        const bool is_highest =
             im->form == WH_SECOND_ORDER || c.primes + 1 == im->unknown[c.unknown].order;
-        r->off[i] += is_solved_for ? im->mass_blur / UNIT * fabs(result[i]) : 0.0;
+        r->off[i] += is_highest ? im->mass_blur / UNIT * fabs(result[i]) : 0.0;
         r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
         r->lost[i] += isfinite(r->off[i]) ? 0U : 1U;
     }

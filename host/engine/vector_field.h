@@ -11,8 +11,8 @@
 typedef struct vector_field {
     int n;           /* components of the state */
     state_list list; /* list of the role IMAGE_BOOKS */
-    int *
-        next; /* [n] slope[i] is x[next[i]]; if next[i] < 0, it is result -1 - next[i] of the list instead */
+    /* [n] slope[i] is x[next[i]]; if next[i] < 0, it is result -1 - next[i] of the list */
+    int *next;
 } vector_field;
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind);

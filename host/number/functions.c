@@ -126,9 +126,8 @@ double number_scaled(double x, int exponent) {
     for (; exponent > 1023; exponent -= 1023) {
         x *= 0x1p1023;
     }
-    for (; exponent < -1022;
-         exponent += 969) { /* this keeps 53 bits, so only the last step rounds */
-        x *= 0x1p-969;
+    for (; exponent < -1022; exponent += 969) {
+        x *= 0x1p-969; /* keeps 53 bits, so only the last step rounds */
     }
     return x * wh_power_of_two(exponent);
 }
