@@ -22,7 +22,11 @@ void write_error_say(const char *name) {
                             : "only a part was written");
     const char *slash = strrchr(name, '/');
     if (reason == ENOENT && slash != NULL && name[0] != '-' && strchr(name, '\'') == NULL) {
-        fprintf(stderr, "hint: mkdir -p '%.*s'\n", (int)(slash - name), name);
+        char *folder = alloc_words("%.*s", (int)(slash - name), name);
+        if (access(folder, F_OK) != 0) {
+            fprintf(stderr, "hint: mkdir -p '%s'\n", folder);
+        }
+        free(folder);
     }
 }
 

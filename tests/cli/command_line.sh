@@ -232,10 +232,11 @@ for words in 'run --csv' 'run --columns' 'run --vcd' 'run --plot' 'plot --out' '
     exits 2 'folder.svg: error: cannot be written' $words "$scratch/folder.svg" epicyclic_from_rest --until 20ms
     [ ! -c /dev/full ] || exits 1 'full.svg' $words "$scratch/full.svg" epicyclic_from_rest --until 20ms
 done
-for folder in -no "it's"; do # names that the hint would have to escape
+ln -s /nonexistent/deep/x.csv "$scratch/x.csv"
+for folder in -no "it's" "$scratch"; do # two names that the hint would have to escape; a folder that exists
     "$whirl" run epicyclic_from_rest --until 20ms --csv "$folder/x.csv" >"$scratch/out" 2>&1
     [ $? -eq 2 ] && ! grep -q hint "$scratch/out"
-    verdict $? "$folder: no mkdir that a shell would refuse" "$scratch/out"
+    verdict $? "$folder: no mkdir that would fail or not help" "$scratch/out"
 done
 printf "mechanism m\\ncoordinate x [m]\\nT = 1 [kg]*x'^2/2\\nV = 50 [N/m]*x^2\\nscene s { start x = 1 [m]; step 10 [ms]; until 2 [s] }\\n" >"$scratch/osc.whirl"
 "$whirl" run "$scratch/osc.whirl" --strict=1e-9 --json >"$scratch/out" 2>"$scratch/err"
