@@ -141,13 +141,13 @@ static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t
     if (order_is_wrong(rig, now_ticks)) {
         return WH_TRIP_ORDER;
     }
+    if (trip != WH_TRIP_OVERSPEED || rig->pulses.speed.turn_radps > config->guard.limit_radps) {
+        return trip;
+    }
     const bool starts =
         rig->run.phase == WH_PHASE_SPIN_UP ||
         !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
-    return trip == WH_TRIP_OVERSPEED && starts &&
-                   !(rig->pulses.speed.turn_radps > config->guard.limit_radps)
-               ? WH_TRIP_FASTER
-               : trip;
+    return starts ? WH_TRIP_FASTER : trip;
 }
 
 /* === conditions of orders that are not in the table of states ================================ */
