@@ -7,7 +7,7 @@ BOARD_ATMEGA   := $(addprefix boards/atmega/,board.c cell.c eeprom.c fault.c kep
                   usart.c watchdog.c)
 BOARD_FLASHED  := boards/avr/startup.c boards/avr/stack.c \
                   $(addprefix boards/shared/,remembered.c reset_words.c rig_time.c wait.c) $(BOARD_ATMEGA)
-BOARD_FLASHED_FLAGS := -DWH_WORDS_FROM=0x2200 -DWH_STATION_TELEMETRY=0 -DWH_RIG_SWINGS=0 -DWH_RIG_FEEDS=0 \
+BOARD_FLASHED_FLAGS := -DWH_WORDS_FROM=0x2200 -DWH_STATION_TELEMETRY=0 -DWH_RIG_SWINGS=0 -DWH_RIG_COMPENSATES=0 \
                   -DHAL_LOADCELL_PERIOD_TICKS=8000U -DWH_LOCKIN_SAMPLES=64U -DWH_RIG_SMALL_PIECES=1 \
                   -DRIG_SAMPLES_MOST=1U -DRIG_SAMPLES_WITH_PULSE=0U \
                   -DWH_STATION_IN_BYTES=128U -DWH_STATION_OUT_BYTES=512U -DWH_ROOT_BY_BITS=1 -fno-tree-switch-conversion

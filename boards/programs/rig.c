@@ -130,7 +130,7 @@ static bool take_dials(wh_rig_config *config) {
     target_radps = hal_frames_dial(HAL_DIAL_TARGET);
     const float compensated = hal_frames_dial(HAL_DIAL_COMPENSATION);
     if (compensated < 0.0f || compensated > 0.0f) {
-        config->feeds = WH_COMPENSATION_ALWAYS;
+        config->compensation_when = WH_COMPENSATION_ALWAYS;
         config->compensation.weight_Nm *= compensated;
     }
     config->stop_brakes = hal_frames_dial(HAL_DIAL_BRAKES) > 0.5f;

@@ -13,7 +13,7 @@
 extern const wh_scene rig_observed;
 
 /* wh_arithmetic(), compiled with the flags of the model's file, or with those of this file if there is no model */
-#if WH_RIG_FEEDS
+#if WH_RIG_COMPENSATES
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else
 #define OWN_ARITHMETIC (wh_arithmetic)
@@ -27,10 +27,10 @@ static void own_configuration(wh_rig_config *config) {
                                             .raw_max = HAL_LOADCELL_RAW_MAX};
     config->guard.supply_max_V = hal_motor_supply_most_V();
     wh_rig_slots(config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
-#if WH_RIG_FEEDS
+#if WH_RIG_COMPENSATES
     config->observer.scene = &rig_observed;
 #else
-    config->feeds = WH_COMPENSATION_NEVER;
+    config->compensation_when = WH_COMPENSATION_NEVER;
 #endif
 }
 

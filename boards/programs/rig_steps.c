@@ -52,7 +52,8 @@ static void begin_step(void) {
 
 static bool run(void) {
     own_configuration(&config);
-    config.feeds = tried->compensated ? WH_COMPENSATION_ALWAYS : config.feeds;
+    config.compensation_when =
+        tried->compensated ? WH_COMPENSATION_ALWAYS : config.compensation_when;
     config.swings = tried->swings;
     config.stop_brakes = true; /* so that runs without a free swing end soon */
     if (why_not_started() != NULL) {

@@ -180,10 +180,12 @@ static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
 
 static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
-    const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
-    const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
-                                    target_radps < config->guard.target_min_radps);
-    if (!wh_guard_allows(&config->guard, target_radps, feeds)) {
+    const bool can_compensate =
+        config->compensation_when != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
+    const bool compensates =
+        can_compensate && (config->compensation_when == WH_COMPENSATION_ALWAYS ||
+                           target_radps < config->guard.target_min_radps);
+    if (!wh_guard_allows(&config->guard, target_radps, compensates)) {
         return WH_REFUSED_TARGET;
     }
     return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED
@@ -249,9 +251,9 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
 }
 
 static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
-    rig->compensated =
-        config->feeds == WH_COMPENSATION_ALWAYS ||
-        (config->feeds == WH_COMPENSATION_SLOW && target_radps < config->guard.target_min_radps);
+    rig->compensated = config->compensation_when == WH_COMPENSATION_ALWAYS ||
+                       (config->compensation_when == WH_COMPENSATION_SLOW &&
+                        target_radps < config->guard.target_min_radps);
     if (!rig->compensated) {
         wh_lockin_compensate(&rig->measure.lockin, false, WH_R(0.0));
     }

@@ -68,8 +68,8 @@ typedef enum wh_compensation_when {
 } wh_compensation_when;
 
 /* 0 in builds for small chips: gravity is never compensated, and observer.scene is NULL. */
-#ifndef WH_RIG_FEEDS
-#define WH_RIG_FEEDS 1
+#ifndef WH_RIG_COMPENSATES
+#define WH_RIG_COMPENSATES 1
 #endif
 
 typedef struct wh_rig_config {
@@ -79,7 +79,7 @@ typedef struct wh_rig_config {
     wh_observer_config observer;
     wh_compensation_config compensation;
     wh_swing_config swing;
-    wh_compensation_when feeds;
+    wh_compensation_when compensation_when;
     wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for the rotor to come to rest after a trip */

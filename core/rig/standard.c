@@ -75,7 +75,7 @@ const wh_rig_config wh_rig_standard = {
                 .record_turns = WH_R(7.5)},
     .observer = WH_OBSERVER_STANDARD,
     .compensation = WH_COMPENSATION_STANDARD,
-    .feeds = WH_COMPENSATION_SLOW,
+    .compensation_when = WH_COMPENSATION_SLOW,
     .swing = {.most_rad = WH_R(8.0) / WH_RIG_DEG_PER_RAD,
               .jitter_s = WH_R(1e-4),
               .rough_rad = WH_R(8e-4),
@@ -169,7 +169,7 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
     config->measure.result.mount_factor = part;
     config->guard.load_still_kgm = WH_R(0.1) * moment * part;
     config->observer.scene = NULL;
-    config->feeds = WH_COMPENSATION_NEVER;
+    config->compensation_when = WH_COMPENSATION_NEVER;
 }
 
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,

@@ -69,7 +69,7 @@ static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     switch ((wh_conf_kind)row.kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
     case WH_CONF_SWITCH: return (wh_real) * (const uint8_t *)member;
-    case WH_CONF_FEEDS: return (wh_real) * (const wh_compensation_when *)member;
+    case WH_CONF_WHEN: return (wh_real) * (const wh_compensation_when *)member;
     case WH_CONF_REAL:
     case WH_CONF_KINDS: break;
     }
@@ -82,7 +82,7 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     switch ((wh_conf_kind)row.kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
     case WH_CONF_SWITCH: *(uint8_t *)member = (uint8_t)(uint32_t)value; break;
-    case WH_CONF_FEEDS:
+    case WH_CONF_WHEN:
         *(wh_compensation_when *)member = (wh_compensation_when)(uint32_t)value;
         break;
     case WH_CONF_REAL: *(wh_real *)member = value / units(&row); break;
@@ -95,8 +95,8 @@ static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
 /* True if this build lacks the feature that the value selects. */
 static bool is_absent(wh_conf_id id, wh_real value) {
-    return is_on(value) &&
-           ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
+    return is_on(value) && ((id == WH_CONF_compensation && !WH_RIG_COMPENSATES) ||
+                            (id == WH_CONF_swings && !WH_RIG_SWINGS));
 }
 
 /* Returns the reason for refusing the value, or WH_STATION_FINE. */

@@ -11,12 +11,12 @@
     X(WH_CONF_WHOLE, "|" \
                      "whole") \
     X(WH_CONF_SWITCH, WH_LIST_OFF_ON) \
-    X(WH_CONF_FEEDS, "|" \
-                     "never" \
-                     "|" \
-                     "slow" \
-                     "|" \
-                     "always")
+    X(WH_CONF_WHEN, "|" \
+                    "never" \
+                    "|" \
+                    "slow" \
+                    "|" \
+                    "always")
 
 /* X(unit, word, number): a setting's value in this unit is `number` times the value of the row's `member`. */
 #define WH_CONF_SCALED_ROWS(X) \
@@ -107,7 +107,8 @@
       "end a run in a free swing, which measures the sensors' angles") \
     X(host_loss_stops, 34, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, host_loss_stops, \
       "stop a run when the host is lost") \
-    X(feeds, 35, WH_CONF_FEEDS, ONE, 0.0, 2.0, ALONE, feeds, "gravity compensation by the motor") \
+    X(compensation, 35, WH_CONF_WHEN, ONE, 0.0, 2.0, ALONE, compensation_when, \
+      "gravity compensation by the motor") \
     X(yields, 36, WH_CONF_REAL, KGM2, 0.0, 10.0, ALONE, measure.rotor.yields_kgm2, \
       "variation of inertia on a yielding mount; needs gravity 0") \
     X(no_load_speed, 45, WH_CONF_REAL, RPM, 200.0, 2000.0, ALONE, run.no_load_radps, \

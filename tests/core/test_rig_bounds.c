@@ -17,7 +17,7 @@ static void arm(bool trusted) {
     observing->scene = &rig_fixed;
     observing->trusted_rad = observing->lost_rad = trusted ? WH_R(3.2) : WH_R(0.0);
     observing->trusted_pulses = 1000000U;
-    even.config.feeds = WH_COMPENSATION_ALWAYS;
+    even.config.compensation_when = WH_COMPENSATION_ALWAYS;
     TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
                      WH_OK);
 }
@@ -71,7 +71,8 @@ TEST(rig_bounds, work_of_a_step_is_limited) {
     for (unsigned compensated = 0; compensated < 2U; compensated++) {
         seed = 1U + compensated;
         arm(true);
-        even.config.feeds = compensated == 1U ? WH_COMPENSATION_ALWAYS : WH_COMPENSATION_NEVER;
+        even.config.compensation_when =
+            compensated == 1U ? WH_COMPENSATION_ALWAYS : WH_COMPENSATION_NEVER;
         even.config.measure.record_s = WH_R(8.0);
         even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_RECORD);

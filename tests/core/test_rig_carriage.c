@@ -126,7 +126,8 @@ TEST(rig_carriage, mount) {
     CHECK_NEAR(3e-8f, 0.0351631f * 0.0351631f / (4.0f * 0.2739698f), turns->yields_kgm2);
     CHECK_NEAR(1e-8f, 0.75f * (float)wh_rig_standard.guard.load_still_kgm,
                config.guard.load_still_kgm);
-    TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_COMPENSATION_NEVER &&
+    TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) &&
+                     config.compensation_when == WH_COMPENSATION_NEVER &&
                      config.observer.scene == NULL);
 
     /* Without discs, only the arms have unbalance, and the carriage's model neglects it. */

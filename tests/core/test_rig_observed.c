@@ -19,7 +19,7 @@ static void arm(void) {
     observing->scene = &rig_fixed;
     observing->trusted_rad = observing->lost_rad = WH_R(3.2);
     observing->trusted_pulses = 1000000U;
-    even.config.feeds = WH_COMPENSATION_ALWAYS;
+    even.config.compensation_when = WH_COMPENSATION_ALWAYS;
     TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
                      WH_OK);
 }
@@ -107,7 +107,7 @@ TEST(rig_observed, steps_with_pulses_skip_turn_work) {
 
 TEST(rig_observed, observer_is_idle_without_compensation) {
     arm();
-    even.config.feeds = WH_COMPENSATION_NEVER;
+    even.config.compensation_when = WH_COMPENSATION_NEVER;
     even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
     const uint32_t ticks = even.rig.observer.ticks;
     even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
@@ -120,7 +120,7 @@ TEST(rig_observed, observer_is_idle_without_compensation) {
  * step. */
 TEST(rig_observed, angle_model_follows_the_compensation) {
     arm();
-    even.config.feeds = WH_COMPENSATION_SLOW;
+    even.config.compensation_when = WH_COMPENSATION_SLOW;
     even_obeys(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM);
     for (unsigned i = 0; i < 4U; i++) {
         const wh_turn_angle *angle = &even.rig.measure.lockin.angle;

@@ -51,7 +51,7 @@ TEST(rig_standard, the_run) {
         {"impossible beyond, rpm", RPM(wh_rig_standard.impossible_radps), 930}};
     CHECK(settings);
     TEST_ASSERT_TRUE(!wh_rig_standard.stop_brakes && wh_rig_standard.host_loss_stops);
-    TEST_ASSERT_TRUE(wh_rig_standard.feeds == WH_COMPENSATION_SLOW);
+    TEST_ASSERT_TRUE(wh_rig_standard.compensation_when == WH_COMPENSATION_SLOW);
 }
 
 TEST(rig_standard, the_guard) {

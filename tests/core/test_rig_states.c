@@ -207,7 +207,7 @@ TEST(rig_states, conditions_of_start_and_set) {
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);
-    even.config.feeds = WH_COMPENSATION_SLOW;
+    even.config.compensation_when = WH_COMPENSATION_SLOW;
     even_obeys(&even, WH_EVENT_START, slowest);
     TEST_ASSERT_FALSE(even.rig.compensated);
     for (unsigned never = 0; never < 2;
@@ -215,7 +215,7 @@ TEST(rig_states, conditions_of_start_and_set) {
          never++) {
         stand_in(WH_RIG_ARMED);
         even.rig.observer.status = WH_OK;
-        even.config.feeds = never == 1 ? WH_COMPENSATION_NEVER : WH_COMPENSATION_SLOW;
+        even.config.compensation_when = never == 1 ? WH_COMPENSATION_NEVER : WH_COMPENSATION_SLOW;
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(110.0) * EVEN_RPM) ==
                          (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
         TEST_ASSERT_TRUE(even.rig.compensated == (never == 0));

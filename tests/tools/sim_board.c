@@ -134,7 +134,7 @@ static const char *draw_line(void) {
     if (drawn < NUMBERS) {
         snprintf(words, sizeof words, numbers[drawn], 10U + draw_one_of(&seed, 20));
     } else if (drawn == NUMBERS) {
-        snprintf(words, sizeof words, "conf set feeds %s\n", happens(2) ? "always" : "slow");
+        snprintf(words, sizeof words, "conf set compensation %s\n", happens(2) ? "always" : "slow");
     } else if (now_us > 2 * ASKING_US && happens(250)) {
         const char *const orders_of[] = {"arm\n",      "arm\n",    "start %u\n", "start %u\n",
                                          "start %u\n", "set %u\n", "clear\n",    "stop\n"};
