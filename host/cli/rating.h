@@ -3,9 +3,9 @@
 #define CLI_RATING_H
 
 #include "host/check/horizon.h"
-#include "host/check/simulate.h"
 #include "host/cli/load.h"
 #include "host/study/cost.h"
+#include "host/study/simulate.h"
 #include "options.h"
 #include "pricing_scene.h"
 

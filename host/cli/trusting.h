@@ -3,9 +3,9 @@
 #define CLI_TRUSTING_H
 
 #include "host/check/horizon.h"
-#include "host/check/simulate.h"
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
+#include "host/study/simulate.h"
 
 /* Sets *plan and im->fixed to the plan of the step in fixed point. The caller frees *plan. If ranges are not declared,
  * a run in double measures them. Returns an exit status. After an error (reported), *plan is NULL. */

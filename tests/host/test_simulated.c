@@ -1,4 +1,4 @@
-/* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. The rows have closed forms. The
+/* test_simulated.c: a run from start to end (host/study/simulate.h) in this process. The rows have closed forms. The
  * report is tested for runs that diverge, have an output that ends, or are not trusted. */
 #include "test.h"
 
@@ -7,7 +7,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/check/finding.h"
-#include "host/check/simulate.h"
+#include "host/study/simulate.h"
 
 enum { TEXT = 200000 };
 

@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "host/base/alloc.h"
-#include "host/check/simulate.h"
 #include "host/io/records.h"
 #include "host/io/vcd.h"
+#include "host/study/simulate.h"
 
 #include "command.h"
 #include "derived.h"

@@ -1,6 +1,6 @@
 /* simulate.h: one run from start to end, with records, balance, progress and summary. */
-#ifndef CHECK_SIMULATE_H
-#define CHECK_SIMULATE_H
+#ifndef STUDY_SIMULATE_H
+#define STUDY_SIMULATE_H
 
 #include <stdio.h>
 

@@ -7,19 +7,19 @@
 #include <string.h>
 
 #include "core/contact.h"
-#include "findings.h"
 #include "host/base/alloc.h"
 #include "host/base/diag.h"
 #include "host/base/exit.h"
+#include "host/check/findings.h"
 #include "host/check/horizon.h"
 #include "host/check/nonfinite.h"
+#include "host/check/run_json.h"
 #include "host/check/summary.h"
 #include "host/io/minmax_decimation.h"
 #include "host/io/records.h"
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 #include "host/os/system.h"
-#include "run_json.h"
 
 #define MARKS 400.0 /* most events that a picture shows */
 
