@@ -1,7 +1,5 @@
-/* c_header.c: a scene's header for C11 and C++11: the indices of components, inputs and outputs, by name, their units,
- * and the size of memory. Every name is SCENE_KIND_NAME, with scene and name as in the file. Names are unique, because
- * no KIND begins with another KIND and an underscore. Every name is a macro or an enumerator, so unused ones take no
- * memory. All enumerators have one type, because C++20 deprecates adding values of two enumeration types. */
+/* c_header.c: a scene's header for C11 and C++11. Names differ, because no KIND in SCENE_KIND_NAME begins with
+ * another KIND and an underscore. One enum has all enumerators, because C++20 deprecates sums of two enums. */
 #include "c_header.h"
 
 #include <inttypes.h>
@@ -13,7 +11,7 @@
 #include "host/base/hashing.h"
 #include "host/image/core_rows.h"
 
-/* Length in bytes of a character that changes the writing direction, else 0: compilers warn of these. */
+/* Length in bytes of a character that changes the writing direction; 0 for any other character. */
 static size_t turns_direction(const char *text) {
     const unsigned char *c = (const unsigned char *)text;
     if (c[0] == 0xe2 && ((c[1] == 0x80 && c[2] >= 0x8e && c[2] <= 0xae) ||

@@ -17,8 +17,8 @@ void c_header_fixed_state(FILE *out, const image *im);
 
 /* Writes the part of the header that follows the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
-/* Writes the scene's header. `type`: "scene" or "fixed_scene", without wh_. `form` follows the scene's name in the title.
- * The declaration has WH_LINKS_TO() of core/version.h: it links only with the .c file that belongs to this header. */
+/* Writes the scene's header. `type`: "scene" or "fixed_scene". `form`: text after the scene's name in the first
+ * comment. The header links only with its own .c file, by WH_LINKS_TO() of core/version.h. */
 void c_header_write(FILE *out, const image *im, const char *file, const char *form,
                     const char *type, c_header_body *body, const void *of);
 /* Writes the declaration for the scene's .c file, with WH_LINKED_AS() of core/version.h and a hash of the body. */

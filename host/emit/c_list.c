@@ -1,5 +1,4 @@
-/* c_list.c: an operation list as C. An operation is one statement, so that compiler and interpreter have the same
- * operations in the same order. Constants are hexadecimal, so that float rounds the double as in the interpreter. */
+/* c_list.c: an operation list as C. Each operation is one statement, as in the interpreter. */
 #include "host/emit/c_list.h"
 
 #include <inttypes.h>
@@ -48,7 +47,7 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
 
 /* === the list ================================================================================= */
 
-/* Most operations of an inlined list. On the Cortex-M4F, calling a longer list saves about half of its flash. */
+/* Largest number of operations of an inlined list. Calls of longer lists save flash on the Cortex-M4F. */
 enum { INLINED_MOST = 150 };
 
 /* In lists of at least this length, the compiler should keep the operations' order (core/step/unroll.h). On the
@@ -67,7 +66,7 @@ static void write_operand(FILE *out, const op_list *t, int a) {
     }
 }
 
-/* Writes the phase's constant and whole multiples of angles. Returns the sign before the next term. */
+/* Returns the sign before the phase's next term: " + " or "". */
 static const char *write_turns(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
@@ -117,7 +116,6 @@ static void write_phase(FILE *out, const op_list *t, int i) {
     }
 }
 
-/* Does the list compute `code` (OP_SIN or OP_COS) of operation i, a phase? */
 static bool takes(const op_list *t, op_code code, int i) {
     bool found = false;
     for (int k = i + 1; k < t->count; k++) {

@@ -11,12 +11,12 @@
 /* The parts of the rows that depend on the language. */
 typedef struct op_style {
     void (*operand)(FILE *out, const op_list *t, int a);
-    /* Writes the text for $l, $r or $u of OP_ROWS; `what` is this letter. NULL if no row has these. */
+    /* Writes leaf `a` of the list; `what`: l, r or u, as in OP_ROWS. NULL in C, which has none of these letters. */
     void (*leaf)(FILE *out, const void *context, char what, int a);
     const void *context; /* for leaf() */
 } op_style;
 
-/* Writes the right-hand side of operation `o` of the list. `form`: the text of its row for the language. */
+/* Writes the right-hand side of operation `o`. `form`: the operation's text for C or Octave in OP_ROWS. */
 void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style);
 
 bool c_list_uses_phase(const op_list *t);
@@ -30,9 +30,8 @@ typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 /* Writes the statements, with results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
 /* Writes a wh_accel_fn (if `second`) or a wh_slope_fn; with C_WAVES a wh_turned_accel_fn or a wh_turned_slope_fn.
- * `linkage`: WH_INLINE if the core calls the function at only one place; C_BY_POINTER if the core calls it through a
- * pointer, because gcc -Og cannot inline such a call. If the list has too many operations for inlining, the function
- * is "static" instead. */
+ * `linkage`: WH_INLINE, or C_BY_POINTER if the core calls the function through a pointer. A function with too many
+ * operations for inlining becomes "static". */
 #define C_BY_POINTER "static inline"
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      const char *linkage);
@@ -40,7 +39,7 @@ void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *n
 /* Writes "cells", the tables of a list, if there are any. */
 void c_list_cells(FILE *out, const op_list *t);
 
-/* Writes "waves", a wh_waves, and its functions. The list must satisfy op_list_takes_waves(). */
+/* Writes the wh_waves `waves` and the functions that `waves` points to. op_list_takes_waves() must be true. */
 void c_list_waves(FILE *out, const op_list *t);
 
 #endif

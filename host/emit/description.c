@@ -389,7 +389,6 @@ static void tell_ledger(FILE *out, const image *im) {
     }
 }
 
-/* Prints the declared ranges. Fixed point measures undeclared ones in a run. */
 static void put_ranges(FILE *out, const image *im) {
     bool any = false;
     for (int i = 0; i < im->reals + im->inputs; i++) {

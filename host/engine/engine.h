@@ -52,9 +52,9 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the residuals); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* Let s be the sum of the round-offs of the increments of component i since the start. Returns the largest |s| so
-     * far, in SI. It is 0 in double or with compensated sums. In float, i must be an angle. *span: the range that the
-     * component would have had without round-off, in SI; 0 in double. */
+    /* Sums the round-offs of component i's increments since the start. Returns the sum's largest size so far, in SI.
+     * Returns 0 in double, or with compensated sums. In float, i must be an angle. *span: the component's range without
+     * round-off, in SI; 0 in double. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);

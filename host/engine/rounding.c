@@ -6,7 +6,7 @@
 #include "host/base/alloc.h"
 
 #define FLOAT_MOST 0x1.fffffep127 /* larger values are infinite in float */
-#define ALL_LOST 0x1p24           /* relative error of 1, in unit round-offs of float */
+#define ALL_LOST 0x1p24           /* in unit round-offs of float; a relative error of 1 */
 
 static bool is_beyond(const rounding_values *at, double value) {
     return at->least > 0.0 && fabs(value) > FLOAT_MOST;

@@ -19,7 +19,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
  * angle is outside the range of this number type. */
 bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
-/* Returns false, and reports each error, if float, as in generated C, cannot represent a start angle. */
+/* Returns false if float cannot represent a start angle. Reports each such angle. */
 bool start_angles_are_held(const image *im, diags *errors);
 
 /* Returns false, and reports the reason, if the method (core/method.h) does not support the image. */

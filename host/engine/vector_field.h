@@ -1,8 +1,7 @@
-/* vector_field.h: a scene's right-hand side in double: slopes at any state, without contact forces. Inputs keep their
- * start values.
+/* vector_field.h: a scene's slopes in double at any state, without contact forces. Inputs keep their start values.
  *
- * A state is x[n], angles then reals, as from engine_kind.state(). Slopes and energies must not contain a position that
- * is recovered from its momentum (host/derive/conserve.c), because such a position depends on time. */
+ * A state is x[n]: angles, then reals, as from engine_kind.state(). Slopes and energies must not contain a position
+ * that host/derive/conserve.c recovers from its momentum: such a position depends on time. */
 #ifndef ENGINE_VECTOR_FIELD_H
 #define ENGINE_VECTOR_FIELD_H
 
@@ -11,7 +10,7 @@
 typedef struct vector_field {
     int n;           /* components of the state */
     state_list list; /* list of the role IMAGE_BOOKS */
-    /* [n] slope[i] is x[next[i]]; if next[i] < 0, it is result -1 - next[i] of the list */
+    /* [n] slope[i] = x[next[i]] if next[i] >= 0; otherwise result -1 - next[i] of `list` */
     int *next;
 } vector_field;
 

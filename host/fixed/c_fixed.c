@@ -1,4 +1,4 @@
-/* c_fixed.c: a scene in fixed point as C: the list, the formats, the start, and a step as in engine_fixed.c. */
+/* c_fixed.c: C code of a scene in fixed point, with the step of engine_fixed.c. */
 #include "host/fixed/c_fixed.h"
 
 #include <inttypes.h>

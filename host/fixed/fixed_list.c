@@ -83,10 +83,10 @@ bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *error
 /* === binary points and shifts ================================================================= */
 
 enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* limits that no binary point reaches in practice */
-#define ROUNDED (1.0 - 0x1p-40)
+#define ROUNDED (1.0 - 0x1p-40)            /* so that outward rounding of 2^n costs no digit */
 
 int fixed_point_of(double size, int digits) {
-    int exponent; /* ROUNDED: a size just above 2^n, after outward rounding, counts as 2^n */
+    int exponent;
     if (number_split(ROUNDED * size, &exponent) == 0.0) {
         return digits;
     }
@@ -190,7 +190,7 @@ static int32_t whole(double value, int bits) {
     return (int32_t)number_nearest(number_scaled(value, bits));
 }
 
-#define MARGIN 1e-6 /* relative; widens a denominator's range by more than its round-off */
+#define MARGIN 1e-6 /* widens a denominator's range by this share */
 
 /* Aligns an operand to `bits` digits after the point. */
 static void align(const fixed_list *l, fixed_operand *operand, int bits) {
@@ -206,7 +206,7 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
 /* Returns the largest left shift after which an integer of at most `size` fits into 31 binary digits. */
 static int left_of(double size) { return 31 - exponent_of(size + 1.0); }
 
-/* Chooses a product's shifts. Lowers o->bits until they are at most a_left and b_left. Returns false if that fails. */
+/* Chooses a product's shifts and o->bits. Returns false if no choice is within a_left and b_left. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     for (; o->bits > BITS_LEAST; o->bits--) {
         const int by = a_bits + b_bits - o->bits - 32;
@@ -257,7 +257,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
     const int a_left = constant ? room : left_of(units(a));
     const bool good = shift_product(o, a_bits, a_left, 61 - b->bits - (32 - smallest), 0);
     o->follows = a_left >= o->spread;
-    if (o->follows) { /* a.shift and by are for the smallest |b|: convert them to the largest |b| */
+    if (o->follows) {
         const int more = most(o->spread - o->a.shift, 0);
         o->a.shift += more - o->spread;
         o->by += more;
@@ -381,7 +381,7 @@ typedef struct hull {
     int *cell;        /* [angles] */
     bool *cut;        /* [angles] true if a phase depends on the angle */
     int cells;        /* number of cells per turn */
-    bool at_middles;  /* true: leaves are at mid-range, but angles keep their cells */
+    bool at_middles;  /* true: linear positions, rates and inputs are at mid-range */
     bool divides_zero;
     bool unbounded;
 } hull;
@@ -402,7 +402,7 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* Tighter than enclosure_sine(): it leaves out round-off, because the caller adds SINE_OFF. */
+/* Encloses the sine of a + ahead_rad without round-off. The caller adds SINE_OFF. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);
@@ -585,7 +585,7 @@ static int enter_product(fixed_list *l, int a, int b) {
     return enter(l, (fixed_op){.code = FIXED_PRODUCT, .a = {.op = a}, .b = {.op = b}});
 }
 
-/* Returns the fixed-point form of *o. *lacks: the name of an operation that has none. */
+/* If *o has no fixed-point form, sets *lacks to the operation's name. */
 static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     fixed_op made = {.code = FIXED_CONSTANT, .a = {.op = -1}, .b = {.op = -1}};
     switch (o->code) {

@@ -1,7 +1,5 @@
 /* fixed_list.h: the accelerations' operation list in fixed point: 32-bit integers, each with its own binary point.
- *
- * The list is a copy of the image's list. Its results are multiplied by factors that the step needs. The interpreter
- * (engine_fixed.c) and the C writer (c_fixed.c) read only integers and shifts, so they give the same bits. */
+ * The interpreter (engine_fixed.c) and the C writer (c_fixed.c) give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
@@ -15,8 +13,8 @@
  * its value. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on stderr. */
 bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *errors);
 
-/* Largest numbers of binary digits. The state and sums may have FIXED_KEPT_DIGITS, and other values FIXED_DIGITS.
- * Results may only have FIXED_RESULT_DIGITS, because RK4 adds six of them. */
+/* Largest numbers of binary digits. FIXED_KEPT_DIGITS: state and sums. FIXED_RESULT_DIGITS: results, of which RK4
+ * adds A1 + 2 A2 + 2 A3 + A4. FIXED_DIGITS: other values. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -31,7 +29,7 @@ typedef enum fixed_code {
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
     FIXED_QUOTIENT,   /* a times the reciprocal of b, rounded; for the shifts, see fixed_op.zeros */
-    FIXED_SAME,       /* a times +-2^n, by a shift: round(a) or -round(a) */
+    FIXED_SAME,       /* a times 2^n or -2^n, by a rounding shift */
     FIXED_ABS,        /* round(|a|) */
     FIXED_SIGN,       /* sign of a: -1, 0 or 1 */
     FIXED_LEAST,      /* the smaller of round(a) and round(b) */
@@ -50,8 +48,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has zeros + n leading zeros, with n from 0 to `spread`, and is shifted left by zeros + n.
-     * If `follows`, `a` is also shifted left by n. Otherwise, n is subtracted from `by`. */
+    /* FIXED_QUOTIENT: |b| has zeros + n leading zeros, with n from 0 to `spread`. Left shifts remove these zeros. If
+     * `follows`, `a` is shifted left by n more digits. Otherwise, n is subtracted from `by`. */
     int zeros;
     int spread;
     bool follows;
@@ -59,7 +57,7 @@ typedef struct fixed_op {
     const int *turns; /* FIXED_PHASE: factors, owned by the image's list */
     double offset_rad;
     uint32_t offset;
-    double value;    /* FIXED_CONSTANT: the value; FIXED_SAME: the power of two, with its sign */
+    double value;    /* FIXED_CONSTANT: the constant; FIXED_SAME: 2^n or -2^n */
     enclosure range; /* of the possible values */
     int bits;        /* binary digits after the point */
     bool used;

@@ -53,7 +53,7 @@ static bool fixed_has_step(const image *im, diags *errors) {
     return false;
 }
 
-/* Returns false (reported) if a range is too large, or a start outside its range. */
+/* Returns false (reported) if a range is too large or does not contain the start value. */
 static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -104,7 +104,7 @@ static wh_fixed_format format_of(enclosure range, int bits) {
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
 
-/* Returns the largest `bits` with size 2^bits <= most. */
+/* Returns the largest `bits` with size * 2^bits <= most. */
 static int room_for(double size, double most) {
     const int finest = fixed_point_of(size, FIXED_DIGITS) + 3;
     int less = 0;
@@ -236,7 +236,7 @@ static void set_leaves(fixed_plan *p) {
     }
 }
 
-/* The largest change of a real component in a whole step, from the ranges of the list's results. */
+/* Bounds the change of a real component in one step. */
 static double most_added(const fixed_plan *p, int at) {
     const image *im = p->image;
     if (!p->second || at >= p->linears) {
@@ -296,7 +296,7 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Chooses the binary points of the list and of the state. Each depends on the other: repeats until none changes. */
+/* Chooses the binary points of the list and of the state, which depend on each other. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;

@@ -17,18 +17,17 @@ typedef struct fixed_gain {
     int by;
 } fixed_gain;
 
-/* How RK4 moves a component. Second order: a position q and its rate v, with W = h/2 v, and A1 to A4 = h/2 times the
- * acceleration at the four stages (results of the list):
+/* How RK4 moves a component. A1 to A4 are the list's results at the four stages: h/2 times the accelerations.
+ * Second order: a position q and its rate v, with W = h/2 v:
  *
  *     v2 = v + A1   v3 = v + A2   v4 = v + 2 A3   v+ = v + (A1 + 2 A2 + 2 A3 + A4)/3
  *     q2 = q + W    q3 = q + W + h/2 A1    q4 = q + 2 W + h A2    q+ = q + 2 W + h/3 (A1 + A2 + A3)
  *
- * First order: a component moves as v does. A1 to A4 have `to_kept` more digits after the point than v. W and the terms
- * added to W have `guard` more digits than q. */
+ * First order: each component moves as v does. */
 typedef struct fixed_mover {
-    int to_kept;
+    int to_kept; /* digits after the point of A1 to A4, minus those of v */
     fixed_gain third;
-    int guard;              /* this and the gains below: second order only */
+    int guard;              /* second order: digits after the point of W, minus those of q */
     fixed_gain half_rate;   /* multiplies v by h/2 */
     fixed_gain half_accel;  /* multiplies A1 or A2 by h/2, with wh_fixed_mul_short() */
     fixed_gain third_accel; /* multiplies A1 + A2 + A3 by h/3 */
@@ -40,11 +39,11 @@ typedef struct fixed_plan {
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
     bool second;
-    int coordinates;    /* first order: angles + reals */
+    int coordinates;    /* second order: integrated coordinates; first order: angles + reals */
     int linears;        /* coordinates that are no angles */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
-    int cells; /* result of fixed_hull() */
+    int cells; /* cells per turn of a turn angle, from fixed_hull() */
     int64_t *start_angle;
     int32_t *start_real;
     int32_t *start_input;
@@ -55,8 +54,8 @@ typedef struct fixed_plan {
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Prints a line for each range that is not declared, and for each turn angle with a declared range: Whirl ignores that
- * range. Each line starts with `begin`. */
+/* Prints each range that is not declared. Prints each turn angle whose declared range Whirl ignores. Each line
+ * starts with `begin`. */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

@@ -12,7 +12,7 @@
 #include "host/image/op_list.h"
 #include "host/number/ratio.h"
 
-enum { IMAGE_WAYS = 6 }; /* most variants of an image, each with another way of constant folding */
+enum { IMAGE_WAYS = 6 }; /* largest number of variants, see image.otherwise */
 
 #define IMAGE_COMPONENTS_MAX 64 /* second order: most coordinates; first order: most components */
 
@@ -21,8 +21,8 @@ enum { IMAGE_WAYS = 6 }; /* most variants of an image, each with another way of 
 #define IMAGE_ROW_WORD(id, word) word,
 #define IMAGE_ROW_ONE(id, word) +1
 
-/* How often a step computes the sines of turn angles. ANGLES_LOOKUP: at each stage. ANGLES_TURNED: once, if
- * image_turns(); the stages rotate these sines (core/step/stage_turn.h). */
+/* ANGLES_LOOKUP: each stage computes the sines of turn angles. ANGLES_TURNED: if image_turns(), a step computes the
+ * sines once, and its stages rotate the sines (core/step/stage_turn.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -40,8 +40,8 @@ typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_ROW_ID) } image_matrix_of
 enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
-/* The accelerations contain functions of one turn angle. A step computes these functions (TABLES_NONE), or interpolates
- * them in tables of one turn (core/step/table.h). */
+/* TABLES_NONE: a step computes each function of a turn angle. TABLES_LINEAR and TABLES_CUBIC: a step interpolates
+ * such functions in tables of one turn (core/step/table.h). */
 #define IMAGE_TABLES_ROWS(X) \
     X(TABLES_NONE, "none") \
     X(TABLES_LINEAR, "linear") \
@@ -155,7 +155,7 @@ typedef struct image_range {
 typedef struct image_contact {
     int kind;              /* wh_contact_kind */
     const char *word;      /* word of the statement: "stop", "hold", ... */
-    const char *undefined; /* subject of a message: "the restitution, or the gap, of this stop" */
+    const char *undefined; /* named in an error: "the restitution, or the gap, of this stop" */
     int direction;
     int pin;
     int first_set;
@@ -189,7 +189,7 @@ typedef struct image_ledger {
     int inputs;         /* number of inputs on which the energies depend */
     bool turned;        /* IMAGE_POWERS reads angles with all their turns */
     image_entry *entry; /* [smooth] */
-    int *unknown;       /* [accounts] the unknown of a momentum; -1 for the energy */
+    int *unknown;       /* [accounts] index of the momentum's unknown; -1 for the energy */
     int *input;         /* [inputs] indices of the image's inputs */
 } image_ledger;
 
@@ -280,7 +280,7 @@ typedef struct image {
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
     int *place;             /* [count] second order: index of the integrated coordinate, or -1 */
-    int *from_momentum;     /* [recovered] unknown */
+    int *from_momentum;     /* [recovered] indices of unknowns */
     image_quantity *input;  /* [inputs] with the value at the start */
     image_drive *drive;     /* [drives] */
     int drives;

@@ -119,7 +119,7 @@ typedef struct op {
     const double *parts;
 } op;
 
-/* The tables of core/step/table.h, without its scaling of b, c and d: y is in cells, from the cell's middle. */
+/* Tables as in core/step/table.h, but WH_TABLE_B(), WH_TABLE_C() and WH_TABLE_D() are not yet applied. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -150,8 +150,8 @@ void op_list_free(op_list *t);
 int op_list_constant(op_list *t, double value);
 int op_list_leaf(op_list *t, op_code code, int which);
 int op_list_noise(op_list *t, uint32_t seed);
-/* Enters the phase `offset_rad` + sum of multiple[k] * turn angle k + value of operation `radians` (-1: none), radians.
- * multiple[t->angles] may be NULL. Its whole numbers apply to angles modulo a turn, others to unwrapped angles. */
+/* Enters `offset_rad` + sum of multiple[k] * turn angle k + value of operation `radians` (-1: none), in radians.
+ * multiple[t->angles] may be NULL. If op_list_is_whole(multiple[k]), angle k is taken modulo a turn, else unwrapped. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
 /* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);

@@ -54,7 +54,6 @@ static matrix kernel_of(matrix m) {
     return kernel;
 }
 
-/* Does multiplying this value need a new product? */
 static bool is_raw(const op *o) {
     switch (op_rows[o->code].kind) {
     case OP_IS_LEAF:
@@ -74,7 +73,7 @@ static bool is_raw(const op *o) {
 typedef struct unknowns {
     const op_list *of;
     int *column; /* [of->count][2] column of each raw operand, a or b; 0: none */
-    int *place;  /* [columns] index in column[] of each column from of->count on */
+    int *place;  /* [columns] inverse of `column`: 2 * operation, plus 1 for operand b */
     int columns;
 } unknowns;
 
@@ -142,7 +141,7 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     }
 }
 
-/* Returns all scalings. Each use of a raw value has an exponent of its own. */
+/* The rows span all vectors of exponents (op_list_scaling.h). */
 static matrix all_freedoms(const unknowns *u) {
     const op_list *t = u->of;
     matrix m = matrix_new(2 * t->count + t->results, u->columns);
@@ -158,14 +157,12 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* Uses of raw values that a scaling multiplies. Uses of the same value get the same factor. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* column of the first chosen use of the same value */
     int count;
 } chosen;
 
-/* Does the scaling e[] multiply every chosen use, and change more than constants? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -202,7 +199,7 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns equations for a weighted sum of the rows of `all`: it must multiply raw values only at chosen uses. */
+/* Returns equations for weights of the rows of `all`. The weighted sum changes raw values only at chosen uses. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -240,7 +237,7 @@ static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c,
     free(shares.at);
 }
 
-/* Adds to `c` the uses of operation `raw` whose bits are set in `which`. */
+/* Bit k of `which` chooses use k of operation `raw`. The last bit chooses all further uses. */
 static chosen choose(const unknowns *u, chosen c, int raw, unsigned which) {
     int first = -1;
     int seen = 0;
@@ -382,7 +379,6 @@ static int make(const multiplied *m, int i) {
                                                         : times));
     case OP_IS_BINARY:
         if (o->code == OP_MUL || o->code == OP_DIV) {
-            /* a product with a constant is entered at each use: taken() multiplies the constant */
             const bool at_use = o->code == OP_MUL && is_constant(m->from, o->a);
             return at_use ? -1 : make_product(m, i);
         }
@@ -473,7 +469,7 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* Result i changes component i. If the list does not read this component, the result has this weight instead of 1. */
+/* Weight of a result in op_list_bias() if the list does not read the result's component; otherwise 1. */
 #define UNREAD (1.0 / 64.0)
 
 static void weigh_results(const op_list *t, double *weight) {
@@ -546,7 +542,7 @@ enum {
 };
 
 #define CLEARLY 0.5 /* a clearly better list has less than this times the best bias */
-#define LESS 0.99   /* a better list has less than this times the best bias */
+#define LESS 0.99   /* a better list's bias is less than LESS times the best bias */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 
@@ -562,7 +558,7 @@ typedef struct scaling_search {
     int64_t tried; /* total operations of tried lists */
 } scaling_search;
 
-/* Returns x^e. Products give small whole powers of small whole numbers exactly. */
+/* Returns x^e. Products of small whole numbers are exact. */
 static double power(double x, double e) {
     if (e == number_floor(e) && fabs(e) <= 4.0) {
         double product = 1.0;
@@ -574,7 +570,6 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* Only a clearly lower bias may cost operations. */
 static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -659,7 +654,7 @@ static void search_round(scaling_search *s) {
             const double *exponent = f.exponent + (size_t)k * (size_t)f.length;
             if (pass == 0) {
                 try_vanishing(s, exponent);
-                /* primes and reals are not tried if an arbitrary factor already needs too many operations */
+                /* does an arbitrary factor need too many operations? */
                 op_list *made = scaled_by(s, exponent, 1.2345678901);
                 can[k] = op_list_operations(made) <= s->most;
                 op_list_free(made);

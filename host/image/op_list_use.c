@@ -32,7 +32,7 @@ static void renumber(op_list *t, const int *order, const int *number, int count)
 /* An Arm or RISC-V FPU has 32 single-precision registers. The surrounding step needs some of them. */
 enum { OP_LIST_REGISTERS = 20 };
 
-/* Dependencies between operations. A phase also depends on the previous phase: their order numbers the waves. */
+/* Dependencies between operations. A phase also depends on the previous phase, so that phases keep their order. */
 typedef struct op_list_needs {
     const op_list *t;
     struct arena *memory; /* owns every array of the analysis */
@@ -132,8 +132,7 @@ static void hold(registers *r, int v) {
     r->value[r->count++] = v;
 }
 
-/* Sets next[v] to the position in `sequence` that first uses value v. For each value that a position uses, the returned
- * array has the next position that uses it: TAKEN_MOST entries for each position. */
+/* The returned array has TAKEN_MOST entries for each position of `sequence`. */
 static int *uses_after(const op_list_needs *n, const int *sequence, int count, int *next) {
     const op_list *t = n->t;
     int *after = room(n, TAKEN_MOST * sizeof *after);
@@ -468,7 +467,6 @@ int op_list_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-/* Marks all operations that the marked operations among 0 .. last need. */
 static void mark_operands(const op_list *t, int last, bool *needed) {
     int operand[2];
     for (int i = last; i >= 0; i--) {

@@ -25,8 +25,7 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* ASCII characters other than letters become octal codes, so that gnuplot cannot take them for syntax. XML forbids
- * control characters, which become blanks, and "]]>", which gets an invisible character (U+2060) before its >. */
+/* Octal codes hide syntax from gnuplot. XML forbids control characters and "]]>". */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;

@@ -70,7 +70,7 @@ typedef struct gnuplot {
     const char *text;
 } gnuplot;
 
-/* Does the file's name end in .svg, .png or .pdf? If not, reports the error with this option. */
+/* Returns false (reported) if `file` does not end in .svg, .png or .pdf. The report names `option`. */
 bool gnuplot_can_draw_for(const char *command, const char *option, const char *file);
 
 /* Returns false (reported) if gnuplot is missing. */
@@ -85,7 +85,7 @@ bool gnuplot_close(gnuplot *g);
 
 /* Writes text in quotes. gnuplot shows it literally if "noenhanced" is set. */
 void gnuplot_quote(FILE *to, const char *text);
-/* Writes one character, text[at], between gnuplot's double quotes. */
+/* Writes text[at], escaped for a string in gnuplot's double quotes. The caller writes the quotes. */
 void gnuplot_character(FILE *to, const char *text, size_t at);
 
 #endif

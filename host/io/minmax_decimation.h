@@ -1,7 +1,6 @@
 /* minmax_decimation.h: min–max decimation of a run for a picture, in bounded memory. A "bucket" of consecutive steps
- * keeps the least and the greatest value of every column, in their order of time. No peak is lost, and a vibration
- * faster than the picture's resolution appears as a band, not as a slower vibration. A bucket is one step at first.
- * When all buckets are full, pairs are merged, and their size doubles, so at least half of the buckets are used. */
+ * keeps the least and the greatest value of every column, in their order of time. So the picture shows each peak. If
+ * all buckets are full, pairs of buckets are merged. */
 #ifndef IO_MINMAX_DECIMATION_H
 #define IO_MINMAX_DECIMATION_H
 

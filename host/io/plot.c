@@ -419,7 +419,7 @@ static void take_marks(plot_run *run, const char *at) {
     }
 }
 
-/* Takes a line "NAME" = "TEXT" of the table of units, or of descriptions. */
+/* Takes a column's unit (if `units`) or description from a line "NAME" = "TEXT". */
 static void take_text(plot_run *run, const char *line, bool units) {
     char *name = string_at(&line);
     line += strspn(line, " =");
@@ -682,7 +682,7 @@ static extent quantity_extent(const panels *p, const plot_run *runs, const int *
     return e;
 }
 
-/* Lists a panel's quantities (panel -1: all), or says their number if the list is longer than `most`. To be freed. */
+/* Lists a panel's quantities (-1: all panels), or counts a list above `most` bytes. The caller frees the text. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names;
     size_t length;

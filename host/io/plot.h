@@ -90,9 +90,8 @@ typedef struct panels {
     int runs;
 } panels;
 
-/* Draws to `file`. Titles and names (UTF-8) appear literally, with blanks for control characters; exponents after ^ in
- * a unit are raised. No text or file name can act as a gnuplot command. Returns false after an error (reported): the
- * choice does not fit, the file cannot be written, or gnuplot is missing or fails. */
+/* Draws to `file`. Titles and names (UTF-8) appear literally. Exponents after ^ in a unit are raised. No text or
+ * file name can act as a gnuplot command. Returns false after an error (reported). */
 bool plot_draw(const char *command, const char *file, const plot_choice *choice,
                const plot_run *runs, int count);
 

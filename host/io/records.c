@@ -164,9 +164,9 @@ bool records_write(const records *r) {
 
 /* === waves of a run =========================================================================== */
 
-/* Most units of time in a dump; doubles represent all whole numbers up to 2^53. */
+/* Largest number of time units in a dump. A double represents each of them. */
 #define TICKS_MOST 0x1p52
-/* Least units of time in a step, to resolve events within it. TICKS_MOST and VCD_FINEST can force fewer. */
+/* Smallest number of time units in a step, unless TICKS_MOST or VCD_FINEST prevents it. */
 #define TICKS_LEAST 1e3
 
 struct traces {

@@ -1,7 +1,7 @@
-/* records.h: the records of a run, as comma-separated values (RFC 4180) or as plain columns. Octave and Matlab `load`
- * plain columns: their header line begins with a percent sign, and blanks separate the numbers. The columns are the
- * time, the unknowns, their derivatives such as der(theta), and the outputs. Angles are not wrapped. A number is in the
- * declared unit (image_unit), or in SI if none was declared. The header names a unit that is not SI: theta [deg]. */
+/* records.h: the records of a run, as comma-separated values (RFC 4180) or as plain columns. Octave and Matlab read
+ * plain columns with `load`. The columns are the time, the unknowns, their derivatives such as der(theta), and the
+ * outputs. Angles are not wrapped. Numbers are in declared units (image_unit), otherwise in SI. The header names each
+ * unit that is not SI: theta [deg]. */
 #ifndef IO_RECORDS_H
 #define IO_RECORDS_H
 
@@ -42,14 +42,12 @@ void records_read(records *r, void *run, double time_s);
 bool records_write(const records *r);
 
 /* === waves of a run =================================================================================== */
-/* A run for waveform viewers, as a value change dump (host/io/vcd.h). The columns of the records and the constant
- * inputs are real signals. A wire is high while a stop rests, a hold is active, a friction sticks, or a `when` is
- * above its value. An event marks the instant of an impact at a stop, or of a crossing of a `when`. If a step has more
- * than WH_EVENT_LOG events (core/state.h), the dump has only the first ones. */
+/* A run for waveform viewers, as a value change dump (host/io/vcd.h). Columns and constant inputs are real signals.
+ * A wire is high while a stop rests, a hold is active, a friction sticks, or a `when` has its left side above its right
+ * side. An event marks an impact or a crossing. The dump has the first WH_EVENT_LOG events of a step. */
 
-/* Sets *power: the dump's unit of time is 10^-power s. If possible, a step has at least 1000 units. *power is at most
- * VCD_FINEST, and the run has less than 2^52 units. Returns false if a step is then shorter than one unit,
- * or if the run takes 2^52 s. */
+/* Sets *power: the dump's unit of time is 10^-power s. *power is at most VCD_FINEST. A run has less than 2^52 units.
+ * A step has at least 1000 units if these limits allow. Returns false if no unit fits the step and the run. */
 bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;
