@@ -243,7 +243,6 @@ static bool options_fit(derive_options *o) {
            goes_with(o->common.number == &engine_fixed, "--number fixed", "", RUNS, "c", o->as);
 }
 
-/* Derives all mechanisms if the form has SHOWS and no name is given; else the scene or mechanism of source_pick(). */
 static int derive_source(source_model *from, void *options) {
     derive_options *o = options;
     const overrides *changes = &o->common.changes;

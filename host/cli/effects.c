@@ -180,7 +180,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* Removes the effects *out from --with. Then keeps in *out only the effects that --without must name. */
+/* given->with becomes --with without the effects *out. *out becomes the effects that --without must name. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

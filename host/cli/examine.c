@@ -1,4 +1,4 @@
-/* examine.c: `whirl examine`: the conserved momenta of a mechanism, and the forces that change the others. */
+/* examine.c: `whirl examine`: the conserved momenta of a mechanism, and the forces that change other momenta. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -196,7 +196,7 @@ static bool is_replaced(const figure_options *o, char **word, int at, int count)
     return is;
 }
 
-/* Runs a description's line, `kind NAME WORDS`. The records go into a temporary file. */
+/* Makes the records that a line `kind NAME WORDS` of the figure's description asks for. */
 static int make_data(const figure_options *o, const char *kind, char **word, int count,
                      figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";

@@ -1,4 +1,4 @@
-/* firstlight.c: `whirl firstlight`: comparison of a board's record with the interpreter and an emulator's record. */
+/* firstlight.c: `whirl firstlight`: a board's record, compared with records of the interpreter and an emulator. */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -151,7 +151,7 @@ static char *light_row(const light *l, int equal, const char *differ) {
     return row;
 }
 
-/* Appends the row to the table that ends the page, unless the page has the record. Returns an exit status. */
+/* Appends the row to the page, unless the page already has the value `crc`. Returns an exit status. */
 static int light_append(const char *page, const char *row, uint32_t crc) {
     size_t length = 0;
     char seen[24];

@@ -17,11 +17,11 @@
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path);
 
-/* Do two names mean one file: equal names, one existing file, or one file that does not exist yet? */
+/* Returns true if the two names are equal or lead to one regular file. The file need not exist. */
 bool files_same(const char *one, const char *other);
 
-/* Would `output` or a file beside it (.part, .toml, .sweep) overwrite `other`? If `is_input` is false, `other` is an
- * output, and the files beside it are compared, too. */
+/* Returns true if `output`, OUTPUT.part, OUTPUT.toml or OUTPUT.sweep is the file `other`. If `is_input` is false, the
+ * files OTHER.part, OTHER.toml and OTHER.sweep count as `other`. */
 bool files_meet(const char *output, const char *other, bool is_input);
 
 /* === a file, or a built-in model ============================================================== */
@@ -38,18 +38,21 @@ typedef struct source_model {
 
 /* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Returns an exit status (reported). */
 int source_open(source_model *source, const char *target);
-/* Opens the only built-in model with `target`. Returns an exit status (reported); call source_close() in any case. */
+/* Opens the one of models[count] that has the scene or mechanism `target`. If none or several of the models have
+ * `target`, returns EXIT_BAD_INPUT (reported). Always call source_close(). */
 int source_find(source_model *source, const struct builtin_model *models, size_t count,
                 const char *target);
 /* Returns false after an error (reported). */
 bool source_builtin(source_model *source, const struct builtin_model *model);
 void source_close(source_model *source);
 
-/* The existing file of a target FILE or FILE:NAME, "/dev/stdin" for "-"; NULL if there is none. The caller frees it. */
+/* Returns the file of a target FILE or FILE:NAME, or "/dev/stdin" for "-". Returns NULL if the file does not exist.
+ * The caller frees the text. */
 char *source_file(const char *target);
 
-/* Finds the scene named `source->name`, else the mechanism (*in is NULL). If the name is "", finds the only mechanism,
- * or the only scene if `prefer_scene` is true and the file has scenes. Returns an exit status (reported). */
+/* Finds the scene named `source->name`. If no scene has the name, finds the mechanism, and *in is NULL. If the name is
+ * "", finds the only scene if `prefer_scene` is true and the file has scenes. Otherwise "" finds the only mechanism.
+ * Returns an exit status (reported). */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
 
 typedef struct load_request {

@@ -111,7 +111,7 @@ void options_forget(common_options *options);
 /* Adds --set, and takes ownership of the text. NULL adds nothing. */
 void options_set(common_options *options, char *text);
 
-/* Stores words[*at] if it is an option of `groups`, advances *at and returns true. Invalid values set *bad. */
+/* If words[*at] is an option of `groups`, stores the value, advances *at and returns true. A wrong value sets *bad. */
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
@@ -196,8 +196,8 @@ typedef struct target_reader {
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* Loads the scene or mechanism that the target names. Without a name, loads the only scene. But if the file has no
- * scene, or has several and !request.scene, loads the only mechanism. Returns an exit status. */
+/* Loads the scene or mechanism of source_pick(), with `prefer_scene` true if request.scene is true or the file has one
+ * scene. Returns an exit status (reported). */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 

@@ -82,7 +82,7 @@ typedef struct pil_options {
     const char *firmware;
     const char *port; /* a serial line to the board */
     const char *board;
-    char machine[GUEST_MACHINE_BYTES]; /* QEMU's machine in the board's folder; "": none */
+    char machine[GUEST_MACHINE_BYTES]; /* as set by guest_machine_of() */
     const char *tape;
     const char *replay;
     const char *read; /* a tape to print */

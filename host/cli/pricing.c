@@ -166,7 +166,6 @@ static bool read_methods(pricing *p) {
     return chosen >= 0;
 }
 
-/* The requested table: on all processors, with progress on a terminal. */
 static table_request request_of(const pricing *p) {
     const bool shows = p->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_request){.operations = p->effort,
@@ -495,8 +494,7 @@ static bool read_limits(const pricing *p, choice_request *w) {
            (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
 }
 
-/* With --rate, the interval between records is 1, 2, 5, 10, ... periods: the first that gives at most
- * 2.5 * PRICING_RECORDS records. Returns false if the rate is too high, or a period exceeds the horizon (reported). */
+/* Sets *spacing; with --rate, the spacing is a whole number of periods. Returns false after an error (reported). */
 static bool space_records(const pricing *p, choice_request *w, whole_ratio *spacing) {
     w->table.periods = 1;
     if (!(w->table.rate_Hz > 0.0)) {

@@ -99,8 +99,8 @@ int pricing_open(pricing *p);
 void pricing_close(pricing *p);
 /* The board of --board. Returns NULL (reported) if it is unknown or has no prices. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* Reads a positive *value, in SI. It has the dimension of the output, coordinate or rate `name`, or, if `name` is NULL,
- * the dimension `wanted`. Returns false after an error (reported). */
+/* Reads a positive *value, in SI. If `name` is NULL, *value has the dimension `wanted`. Otherwise *value has the
+ * dimension of the output, coordinate or rate `name`. Returns false after an error (reported). */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
 /* Computes the references of p->trial, with records at intervals of `spacing`, in s. Returns an exit status. */

@@ -20,7 +20,7 @@ typedef struct pricing_scene {
     const overrides *changes; /* of the command line, without the varied values */
     const grid *grid;         /* the varied values; may have no axes */
     diags *errors;
-    instance **instance;   /* [points] from which `equations` are derived */
+    instance **instance;   /* [points] equations[i] is derived from instance[i] */
     equations **equations; /* [points] NULL: not yet derived */
     pricing_made *made;    /* [made_count] */
     int made_count;

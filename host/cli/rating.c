@@ -34,7 +34,7 @@ static void say_none(FILE *out, const rating_request *w, const char *why, const 
 
 /* RECORDS_MOST: most records of the run. SPACING: a record's interval is a multiple of this many steps. */
 enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
-/* Each term: the steps of one row or one reference, per step of the run. */
+/* Steps of all rows, and of the two references, as multiples of the run's steps. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
@@ -115,7 +115,7 @@ static void print_rows(FILE *out, const rating_request *w, const pricing_scene *
     trial_end(&t);
 }
 
-/* Returns NULL if the rows can be shown, else the reason. *command is then the command that shows them, or NULL. */
+/* Returns the reason why the rows cannot be shown, or NULL. *command becomes a command that shows the rows, or NULL. */
 static const char *why_none(const rating_request *w, const setting *s,
                             const simulation_trust *trust, double steps, const char **command) {
     const bool on_board = strcmp(w->board->name, "host") != 0;
@@ -144,7 +144,7 @@ static const char *why_none(const rating_request *w, const setting *s,
 
 void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust) {
     const bool pc = strcmp(w->board->name, "host") == 0;
-    const engine_kind *programs = pc ? &engine_double : &engine_float; /* of the board */
+    const engine_kind *programs = pc ? &engine_double : &engine_float;
     const setting s = {*w->settings, w->number != NULL ? w->number : programs};
     const double trusted = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
     const double steps = number_least(trusted, (double)w->image->steps);

@@ -1,5 +1,5 @@
-/* sweep.c: `whirl sweep` and `whirl map`. A sweep writes a row of measures for the run of each point of a grid. A map
- * sweeps two axes, and measures if a run stays bounded, keeps its energy and meets a tolerance. */
+/* sweep.c: `whirl sweep` and `whirl map`. A sweep runs each point of a grid, and writes a row of measures for each run.
+ * A map sweeps two axes, and shows if a run stays bounded, keeps its energy and meets a tolerance. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ enum { AXES = 2 };
 #define PAIRS_MOST 250000
 /* Limit of the operations of a map without --effort. */
 #define EFFORT 1.5e11
-/* Approximate operations per step of checks, balance and comparison. Those of the image's lists are not included. */
+/* Estimated operations of a step in addition to the image's lists. */
 #define OPERATIONS_A_STEP 200.0
 
 static const command_usage sweep_usage = {

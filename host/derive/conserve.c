@@ -61,8 +61,7 @@ static double at_start(const equations *e, const poly *p) {
     return poly_evaluate(p, start_value, (void *)(uintptr_t)e->instance);
 }
 
-/* Returns the antiderivative of a term with respect to q, or NULL. The term must be a power of q times a factor without
- * q, or a sine or cosine whose angle is linear in q. */
+/* Returns the antiderivative of a term with respect to q, or NULL if Whirl cannot find an antiderivative. */
 static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *q) {
     const mono *m = t->mono;
     const poly *factors = poly_number(a, t->coefficient);

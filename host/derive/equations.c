@@ -84,7 +84,7 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
     return false;
 }
 
-/* Adds a crossing for each friction whose normal force varies (contact_loosens()), up to CONTACTS_MAX contacts. */
+/* Adds a crossing for each friction whose normal force varies (contact_loosens()). */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
     contact_statement *loose = algebra_room(a, written, sizeof *loose);

@@ -35,8 +35,8 @@ typedef struct contact_laws {
     int set_count;    /* number of values that crossings set */
 } contact_laws;
 
-/* True for the crossing at which a friction's varying normal force reaches or leaves zero. It sets nothing. The force
- * has a kink there, which a step of fourth order must not span. */
+/* True for the crossing at which a friction's varying normal force reaches or leaves zero. The crossing sets no value.
+ * A step of fourth order must not span the crossing, because the force has a kink there. */
 bool contact_loosens(const contact_statement *h);
 
 /* The active contacts of the instance, in the memory of the algebra, or NULL. */
@@ -74,7 +74,7 @@ typedef struct equations {
     int count;         /* number of unknowns, and of equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
-    /* relative error that round-off in mass[] causes in the accelerations, at the tried state where it is smallest */
+    /* relative error of the accelerations by round-off in mass[]: the smallest error of all tried states */
     double mass_blur;
     folding folding;       /* losses of digits in constant folding (folding.h) */
     const poly **velocity; /* [count] centrifugal and Coriolis terms; zero for a system */

@@ -5,8 +5,8 @@
 #include "host/derive/equations.h"
 #include "host/image/image.h"
 
-/* Images to run and to check have image.diagnostics, so that messages can point at an undefined expression. An image to
- * check also has the image of its finer run (image.finer). */
+/* IMAGE_TO_RUN and IMAGE_TO_CHECK make image.diagnostics, which messages about undefined expressions need.
+ * IMAGE_TO_CHECK also makes image.finer, the image of the finer run. */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
 /* Returns an image with the lists of `base`. Starts, inputs, step and end are those of `inst`, which must have the same

@@ -8,14 +8,13 @@
 
 /* === the rank of a matrix of numbers, independent of its units ================================ */
 
-/* Returns the rank of m[n * n], stored row by row. error[n * n] >= 0 are the error bounds of its entries. Overwrites m
- * and error. If the matrix is regular, the only nonzero entry of each row of m is then its pivot.
+/* Returns the rank of m[n * n], stored row by row. error[n * n] >= 0 are the error bounds of m's entries. Overwrites m
+ * and error. If the rank is n, each row of the overwritten m has one nonzero entry, the row's pivot.
  *
- * Rows and columns are first scaled by powers of two, so that units of coordinates and ratios of masses do not matter.
- * If `symmetric` and the diagonal is positive, the diagonal becomes about one (van der Sluis, "Condition numbers and
- * equilibration of matrices", 1969: no scaling of a positive definite matrix does much better). Otherwise the largest
- * entry of each row and column becomes about one (Ruiz, 2001). A pivot counts as zero if it is at most n times the
- * largest scaled error, or round-off. */
+ * Rows and columns are scaled by powers of two, because the rank must not depend on units. If `symmetric` and the
+ * diagonal is positive, the diagonal becomes about one (van der Sluis, "Condition numbers and equilibration of
+ * matrices", 1969). Otherwise the largest entry of each row and column becomes about one (Ruiz, 2001). A pivot counts
+ * as zero if it is round-off, or at most n times the largest scaled error. */
 int rank_of(double *m, double *error, int n, bool symmetric);
 
 /* Is a regular symmetric matrix positive definite? m is overwritten. */

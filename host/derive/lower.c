@@ -56,15 +56,14 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 }
 
 /* === powers from multiple angles ============================================================== */
-/* Let s = sin(x)^2 and c = cos(x)^2. A sum of terms c_k cos 2kx, with k = 0 ... n, equals a sum of products
- * s^j c^(n-j). A sum of terms c_k sin 2kx equals sin x cos x times a sum of products s^j c^(n-1-j). If the sum vanishes
- * at x = 0, the product without s drops out, and the others keep the digits that the sum would lose. */
+/* Sums of cos 2kx become sums of products sin(x)^(2j) cos(x)^(2m). Sums of sin 2kx become sin x cos x times such a sum.
+ * Near an x at which a sum vanishes, the products keep digits that the sum loses. */
 
 #define SAME_PIECE 1e-13 /* coefficients with a smaller relative difference count as equal */
 #define CANCELLED 1e-14  /* a sum below this, relative to its addends, counts as zero */
 #define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
 #define INDICES (MULTIPLE_MAX + 1)
-/* A family whose products can exceed this times the sum of |c_k| is not rewritten: large products lose digits. */
+/* Largest allowed size of the products, relative to the sum of |c_k|. Large products lose digits. */
 #define GROWTH_MAX 8.0
 
 /* Compares by member, because padding bytes between a 32-bit pointer and a double are undefined. */
@@ -135,14 +134,15 @@ static bool collect(const poly *p, const bool *used, int base, family *f) {
     return true;
 }
 
-/* The sum of coefficient[j] s^j c^(degree-j). added[j]: the sum of the absolute values of coefficient[j]'s addends. */
+/* The sum of coefficient[j] s^j c^(degree-j), with s = sin(x)^2 and c = cos(x)^2. added[j] sums the absolute values of
+ * the numbers that coefficient[j] sums. */
 typedef struct expansion {
     int degree;
     double coefficient[INDICES];
     double added[INDICES];
 } expansion;
 
-/* Multiplies p by s + c = 1, which raises its degree by one. */
+/* Multiplies p by sin(x)^2 + cos(x)^2 = 1. */
 static void times_one(double *p, int degree) {
     p[degree + 1] = 0.0;
     for (int j = degree + 1; j > 0; j--) {
@@ -150,8 +150,8 @@ static void times_one(double *p, int degree) {
     }
 }
 
-/* Returns the sum of c_k P_k. P_k is cos 2kx in a family of cosines, sin 2kx / (sin x cos x) in a family of sines. The
- * recurrence P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1) begins with P_0 = 1 (cosines) or P_1 = 2 (sines). */
+/* Returns the sum of c_k P_k, by the recurrence P_(k+1) = 2 cos 2x P_k - P_(k-1). P_k is cos 2kx in a family of
+ * cosines, and sin 2kx / (sin x cos x) in a family of sines. */
 static expansion expand(const family *f) {
     const int first = f->trig == TRIG_SIN ? 1 : 0;
     double before[INDICES + 1] = {0};
@@ -167,7 +167,7 @@ static expansion expand(const family *f) {
             sum.coefficient[j] += f->coefficient[k] * now[j];
             sum.added[j] += fabs(f->coefficient[k] * now[j]);
         }
-        /* only P_1 = (c - s) P_0 of the cosines has no factor 2 */
+        /* in a family of cosines, P_1 is cos 2x P_0, without the factor 2 */
         const double turn = k == 0 ? 1.0 : 2.0;
         double next[INDICES + 1] = {0};
         for (int j = 0; j <= degree + 1 && j < INDICES; j++) {
@@ -282,9 +282,8 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 }
 
 /* === which sines are evaluated ================================================================ */
-/* As few sines and cosines as possible are evaluated: an evaluated pair costs some thirty instructions, sin(a + b) from
- * known pairs at most six. So the angles are taken from the smallest to the largest, and a sum, a difference or a
- * double of earlier angles is computed from their pairs. solve.c also tries to begin with other angles. */
+/* An evaluated pair of sine and cosine costs some thirty instructions. A pair for a sum, difference or double of angles
+ * costs at most six if the pairs of these angles are known. So small angles come first. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -355,7 +354,7 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* A part with more nested sines than `angle` could itself need the sine of `angle`: an endless recursion. */
+/* Prevents an endless recursion: a part with more nested sines may contain the sine of `angle`. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -402,7 +401,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Is there a fraction of a turn angle, such as half of it? No other sine is computed from the sine of such an angle. */
+/* Does the angle contain a fraction of a turn angle, such as half of it? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -595,7 +594,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* without turn angles, tan() is more precise: a phase rounds its argument to 1.5e-9 rad */
+    /* without a turn angle, tan() is more precise than sine and cosine of a rounded phase */
     if (is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = wave_of(l, x->argument[0], TRIG_SIN);
         return op_list_div(l->list, s, wave_of(l, x->argument[0], TRIG_COS));
@@ -648,7 +647,7 @@ static int sum_of_like(lowering *l, const node_product *products, const int *nod
     return op_list_mul(t, op_list_constant(t, size), sum);
 }
 
-/* Adds products without a common factor. Terms with coefficients of the same size are added first. */
+/* Takes no node out of the sum as a common factor. */
 static int sum_flat(lowering *l, const node_product *products, int count) {
     op_list *t = l->list;
     int *nodes = alloc(count, sizeof *nodes);
@@ -738,7 +737,7 @@ int lower_sum(lowering *l, node_product *products, int count) {
     }
     node_product *with = alloc_more(NULL, count, sizeof *with); /* large, so not cleared */
     int in = 0;
-    int out = 0; /* products without the node are moved to the front */
+    int out = 0; /* number of products without the node `shared`, which are moved to the front */
     for (int i = 0; i < count; i++) {
         node_product *p = &products[i];
         int k = 0;
@@ -758,7 +757,7 @@ int lower_sum(lowering *l, node_product *products, int count) {
         }
         with[in++] = *p;
     }
-    bool negative = out > 0; /* a sum of negative products is subtracted: this saves a negation */
+    bool negative = out > 0; /* true: the sum of with[] is subtracted, which saves a negation */
     for (int i = 0; i < in; i++) {
         negative = negative && with[i].coefficient < 0.0;
     }

@@ -11,15 +11,14 @@
 typedef struct piece {
     double coefficient;
     const mono *mono;  /* only its factors count, not its own sine or cosine */
-    const poly *angle; /* NULL when both powers are 0 */
+    const poly *angle; /* NULL if sines and cosines are 0 */
     int sines;
     int cosines;
 } piece;
 
-/* Rewrites sums that cancel at x = 0 or x = pi/2 as powers. Near these angles a sum loses all digits, but a power keeps
- * them. Examples: 1 - cos 2x = 2 sin(x)^2; 3 - 4 cos 2x + cos 4x = 8 sin(x)^4 (at the poles of spherical coordinates);
- * 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x). The angle x may be a sum of terms with whole-number coefficients. Returns the
- * number of pieces written to pieces[p->count]. */
+/* Replaces sums that cancel at x = 0 or x = pi/2 by products of powers of sin(x) and cos(x), which keep their digits
+ * there. Example: 3 - 4 cos 2x + cos 4x = 8 sin(x)^4 (at the poles of spherical coordinates). x may be a sum of terms
+ * with whole-number coefficients. Returns the number of pieces written to pieces[p->count]. */
 int pieces_of(algebra *a, const poly *p, piece *pieces);
 
 typedef struct wave wave;
@@ -32,7 +31,7 @@ typedef struct lowering {
     /* the index of the symbol's turn angle, or -1 */
     int (*turn)(void *context, const symbol *sym);
     void *context;
-    /* lower_plan() sorts the angles by size, and begins with the one of this rank (0: the smallest) */
+    /* rank, by size, of the angle that lower_plan() takes first (0: the smallest) */
     int lead;
     wave *waves;
     int wave_count;

@@ -81,7 +81,7 @@ static bool step(const image *im, const op *o, const double_double *all, double_
         }
         return true;
     case OP_PHASE:
-    case OP_CELL: return true; /* no affine operation reads its coefficients */
+    case OP_CELL: return true; /* only nonlinear operations read a phase or a cell */
     case OP_SIN:
     case OP_COS:
     case OP_LINE:
@@ -192,7 +192,7 @@ enum { HALVINGS_MOST = 50 };
 /* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is below 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
-/* Computes to = a * b, with the first `states` columns of `a`; `b` has as many columns as `to`. */
+/* Sets to[states * columns] to the product of `b` and the first `states` columns of `a`. */
 static void product(const double_double *a, const double_double *b, int states, int columns,
                     double_double *to) {
     for (int i = 0; i < states; i++) {
@@ -298,10 +298,9 @@ static void drop_least(double_double *step, int states, int columns) {
     }
 }
 
-/* On entry, step[states * columns] is [A B c] h. On return, it is the states' change in one step of length h: the first
- * `states` rows of exp([A B c; 0 0 0] h) - 1. Scaling and squaring exp - 1 instead of exp keeps the digits of small
- * changes (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential of a Matrix, method 3). Returns false if
- * more than HALVINGS_MOST halvings would be needed; step[] is then invalid. */
+/* Replaces step = [A B c] h by the first `states` rows of exp([A B c; 0 0 0] h) - 1. Squaring exp - 1 instead of exp
+ * keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential of a Matrix,
+ * method 3). Returns false if the matrix is too large. */
 static bool exponential_exact(double_double *step, int states, int columns) {
     const int count = states * columns;
     double *unit = alloc(states, sizeof *unit);
@@ -391,7 +390,7 @@ static int enter_row(const image *im, op_list *t, const double_double *row,
     return sum;
 }
 
-/* Enters the row with 1 added to row[of]. A small row[of] keeps its digits: the 1 is a term of its own. */
+/* Enters the row with 1 added to row[of]. A small row[of] would lose digits in row[of] + 1. */
 static int enter_near(const image *im, op_list *t, double_double *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = double_double_add(row[of], double_double_of(1.0));
@@ -406,7 +405,7 @@ static double rest(double_double entry) {
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* Enters the mean rate of turn angle i over a step. On entry, row[] has the angle's change in a step of length h. */
+/* On entry, row[] is the change of turn angle i in a step of length h. Enters the change divided by h. */
 static int enter_angle(const image *im, op_list *t, double_double *row, int i, double_double h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);

@@ -16,9 +16,9 @@ int affine_columns(const image *im);
  * that of the list's constants. Returns false without setting rates[] if the list is not affine. */
 bool affine_rates(const image *im, double_double *rates);
 
-/* Makes the image's matrix and its list; the rest of the image must be complete. Returns false (reported) if there is
- * no matrix, because of events, a ledger, tables, another method, a nonlinear term, or numbers that are too large. `e`
- * locates the nonlinear term; it may be NULL if a matrix for another step length was made from the same lists. */
+/* Makes the matrix and its list. The rest of the image must be complete. Returns false (reported) if the image has
+ * events, a ledger, tables, another method, a nonlinear term, no state, or numbers that are too large. `e` locates the
+ * nonlinear term. `e` may be NULL if the lists are known to be affine. */
 bool matrix_make(image_draft *d, const equations *e, diags *errors);
 
 #endif

@@ -84,7 +84,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n; i++) { /* puts back the driven coordinates' entries: J has them */
+        for (int i = 0; i < n; i++) { /* row J includes the driven coordinates' entries */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
@@ -168,7 +168,7 @@ static void make_row(program *p, const contact_law *law, image_contact *row) {
     }
 }
 
-/* Checks the expressions before simplification, which may remove an infinite argument of a `max`. */
+/* Tests unsimplified expressions: simplification may remove an infinite argument of `max`. */
 static bool are_finite(const equations *e, const expr *const *each, int count) {
     for (int i = 0; i < count; i++) {
         if (each[i] != NULL &&
@@ -370,7 +370,7 @@ static bool make_ledger(program *p, diags *errors) {
 
 static const char no_stabilized[] = "leave out --stabilized";
 
-/* Checks the conditions of a stabilized step that do not need the ledger. Returns false (reported) if one fails. */
+/* Returns false (reported) if --stabilized is impossible. stabilizing_conserves() checks the ledger. */
 static bool stabilizing_possible(const program *p, diags *errors) {
     const equations *e = p->layout.equations;
     const image_settings *settings = &p->draft.made->settings;
@@ -491,7 +491,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
         t->result[i] = highest[i];
     }
     for (int i = 0; i < n && e->contacts != NULL; i++) {
-        if (map->place[i] >= 0) { /* OP_ACCEL includes the contacts' forces */
+        if (map->place[i] >= 0) { /* the contacts' forces are in OP_ACCEL, not in highest[] */
             highest[i] = op_list_leaf(t, OP_ACCEL, map->place[i]);
         }
     }

@@ -6,10 +6,9 @@
 #include "host/derive/layout.h"
 #include "host/derive/solve.h"
 
-/* The ledger. By Lagrange's equations, the momentum p_i = dL/dq_i' changes by dL/dq_i (gravity, springs, motion of the
- * other coordinates), and by generalized forces, dampers and contacts. The energy changes by the work of forces,
- * dampers and contacts, and with each input in T or V. If the energy integral is not T + V (equations.h), the integral
- * replaces the energy. */
+/* The ledger has an entry for each cause that changes a momentum p_i = dL/dq_i' or the energy. Causes for p_i are
+ * dL/dq_i, generalized forces, dampers and contacts (Lagrange's equations). Causes for the energy are forces, dampers,
+ * contacts and the inputs in T or V. An energy integral other than T + V replaces the energy (equations.h). */
 
 typedef struct program {
     layout layout;

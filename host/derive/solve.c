@@ -139,7 +139,7 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
     return best_constant;
 }
 
-/* Ends with Cramer's rule for at most three equations. If a divisor is identically 0, the determinant is, too. */
+/* Solves the last equations, at most three, by Cramer's rule if they have no constant pivot. */
 static void eliminate_general(op_list *t, int n, const poly *const *of, int *mass, int *force,
                               int *solution) {
     int rows[COORDINATES_MAX];
@@ -179,17 +179,11 @@ static void eliminate_general(op_list *t, int n, const poly *const *of, int *mas
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
-/* A body on a hinge with the angle q has this row of the equations, with constants A and c:
+/* A body on a hinge with the angle q has the equation A q'' + sum_j P_j x_j = f. A and c are constants.
+ * P_j = Re(z_j exp(i c q)) is a sinusoid of q, with the quadrature P~_j = Im(z_j exp(i c q)). Elimination of q'' adds
+ * -P_i P_j / A to m_ij. Only the second term of this product contains q:
  *
- *     A q'' + sum_j P_j x_j = f,        P_j = Re(z_j exp(i c q)),    f = Re(w exp(i c q)) + rest
- *
- * z_j and w do not contain q. Elimination adds -P_i P_j / A, the effect of the body, to the other rows' m_ij. With the
- * quadratures P~_j = Im(z_j exp(i c q)), which are -1/c times the derivatives of P_j by q,
- *
- *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
- *
- * The first term has no q and joins m_ij in the normal form. The second acts as a mass that moves only along the line
- * from the hinge to the body. The product of P_i and the first term of f is split in the same way. */
+ *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
@@ -236,7 +230,7 @@ static double shared_frequency(algebra *a, int n, const poly *const *mass, const
     return number_root(squared);
 }
 
-/* Removes the centrifugal pull, g across_i q'^2 with a common g, from the other equations' forces. Returns g, or 0. */
+/* Removes the centrifugal pull g across_i q'^2 from each force[i]. Returns g, or 0 if no common g exists. */
 static double take_pull(algebra *a, int n, const poly **force, const poly *const *across,
                         const poly *rate_squared) {
     double g = 0.0;
@@ -265,13 +259,8 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
     return g;
 }
 
-/* Eliminates the angle `turning`, unknown k, from the remaining equations mass[n * n] and force[n]. In row k, the
- * diagonal entry must be a number, *own > 0, and the others sinusoids of the angle with one frequency. If not, returns
- * false and changes no equation. Otherwise changes mass[] and force[], but not row k. The remaining equations are then
- *
- *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
- *
- * and the caller adds the second terms. across[n + 1] is 0 for k and for eliminated unknowns. */
+/* Eliminates unknown k, the angle `turning`. Returns false if row k is not the equation of a hinge. On success, the
+ * caller must add across_i across_j / own to mass_ij, and across_i across_n / own to force_i. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -453,7 +442,7 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
-/* Deletes the equations of the first eliminated unknowns, up to the first wanted one: no wanted solution needs them. */
+/* Deletes the equations of unwanted unknowns that are eliminated before the first wanted one. */
 static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
                             const poly **force, const int *order, int eliminated) {
     const int n = s->n;
@@ -562,8 +551,7 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* Scales the remaining equations so that inverse[0] becomes 1. Then scales the row and column of each unknown that is
- * no angle, so that the most frequent number outside the diagonal becomes 1. */
+/* Scales inverse[0] to 1. Scales the most frequent number of each row to 1, except in the rows of angles. */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];
@@ -626,7 +614,7 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* Up to these limits, all orders of elimination are tried; above, only the first. */
+/* All orders of elimination are tried only up to PERMUTED_MAX unknowns and PERMUTED_SIZE_MAX operands. */
 #define PERMUTED_MAX 4           /* unknowns */
 #define PERMUTED_SIZE_MAX 4000.0 /* operands in the equations */
 #define LEADS_MAX 5              /* largest arrangement.lead that is tried */

@@ -18,7 +18,7 @@ typedef struct linear_system {
     /* true: only wanted solutions must be correct, so more arrangements are possible. Models with contacts need false,
      * because the contacts use the same matrix: another arrangement would change the bits of their steps. */
     bool sparing;
-    /* true: no hinge is eliminated (solve.c), because that multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
+    /* true: no hinge is eliminated. Elimination of hinges multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
     bool precise;
 } linear_system;
 

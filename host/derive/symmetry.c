@@ -51,8 +51,8 @@ static void conditions_add(conditions *c, const conditions *more) {
     }
 }
 
-/* Writes a basis of the vectors that meet all conditions to the rows of basis[columns * columns], and returns their
- * number. A pivot below `zero` times the largest entry of the conditions counts as zero. */
+/* Writes a basis of the null space of the conditions to basis[], row by row, and returns the number of rows. A pivot
+ * counts as zero if it is at most `zero` times the largest entry of the conditions. */
 static int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
     const int64_t entries = (int64_t)c->count * n;
@@ -87,8 +87,8 @@ static int null_space(const conditions *c, double zero, double *basis) {
 
 /* === symmetries =============================================================================== */
 
-/* Arguments `zero` of null_space(), so small that a term of a millionth of the energy still counts. */
-#define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
+/* The argument `zero` of null_space() for two kinds of conditions. */
+#define ZERO_OF_TERMS 1e-12  /* conditions from coefficients of terms */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
 #define DRAWS 50 /* attempts to find a random state at which all functions are defined */
 
@@ -140,7 +140,7 @@ static const poly *without_phases(algebra *a, const poly *p) {
     return sum;
 }
 
-/* Returns row[] multiplied by motion k of change_by(): the power of a force, the rate of a gap, or a momentum. */
+/* Returns the sum of row[i] times the shift of coordinate i by motion k (columns_of()). */
 static const poly *power_by(const equations *e, const poly *const *row, int k) {
     const int n = e->count;
     const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);
@@ -212,7 +212,7 @@ static void take_set(const equations *e, conditions *s, const assignment *set,
     take_terms(s, change);
 }
 
-/* Adds the conditions that all forces together, and each contact, leave the momentum unchanged. */
+/* Adds conditions for a momentum that neither the applied forces nor any contact changes. */
 static void take_forces(const equations *e, conditions *s, const poly **change) {
     const contact_laws *laws = e->contacts;
     take_row(e, s, e->applied, change);
@@ -227,7 +227,7 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
     }
 }
 
-/* Returns the number of motions that leave an energy unchanged at random states; -1 if no state has a finite value. */
+/* Counts motions that leave an energy unchanged at random states. Returns -1 if the states give no finite change[]. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
     conditions of_values = {.columns = columns};

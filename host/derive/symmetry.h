@@ -1,14 +1,12 @@
 /* symmetry.h: affine symmetries of a mechanism, and their momenta (Noether, "Invariante Variationsprobleme", 1918).
  *
- * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy T by e*dT. dT is
- * linear in A and b, and each term of its normal form must vanish, so all (A, b) with dT = 0 for every state form a
- * linear space. The same holds for the potential energy V. If dT = 0, Lagrange's equations (equations.h defines L, Q_i
- * and F) give the rate of the momentum P = sum dL/dq_i' (A q + b)_i:
+ * The motion q -> q + e*(A q + b), with constant A and b, changes the kinetic energy T by e*dT and the potential energy
+ * V by e*dV. All (A, b) with dT = 0 at every state form a linear space, because dT is linear in A and b. If dT = 0, the
+ * momentum P = sum dL/dq_i' (A q + b)_i has this rate (equations.h defines L, Q_i and F):
  *
  *     dP/dt = -dV + sum (Q_i - dF/dq_i') (A q + b)_i + contacts
  *
- * Translations and rotations are affine in Cartesian coordinates and in joint angles. In spherical coordinates, for
- * example, they are not, and the search does not find them. */
+ * The search misses symmetries that are not affine, such as most rotations in spherical coordinates. */
 #ifndef DERIVE_SYMMETRY_H
 #define DERIVE_SYMMETRY_H
 
@@ -23,7 +21,7 @@ typedef struct symmetry {
 
 typedef struct symmetries {
     int count;
-    /* [count] first those with a conserved momentum, then other symmetries of both T and V, then shifts (A = 0) of T */
+    /* [count] first those with conserved momenta, next those of T and V, last shifts (A = 0) of T alone */
     symmetry *each;
     int broken; /* number of symmetries of T that V lacks and that are not shifts */
     /* values at random states confirm that no affine symmetry of T or V is missing */

@@ -100,7 +100,7 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
         case OP_PHASE:  /* a phase has no value */
-        case OP_LINEAR: /* from here on: never in a list of functions of one angle */
+        case OP_LINEAR: /* OP_LINEAR ... OP_CUBIC are never in a list of functions of one angle */
         case OP_RATE:
         case OP_INPUT:
         case OP_ACCEL:
@@ -119,11 +119,9 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots, h apart. A straight piece has the values of the function f at its knots. Its largest
- * error is h^2/8 f'', its average error h^2/12 f''. A cubic piece also has the slopes of f. Its errors are h^4/384
- * f'''' and h^4/720 f''''. A rotating mechanism accumulates the average error, so it is estimated from differences
- * between knots, and subtracted at the knots. Then the average error vanishes, and the largest error falls by a third
- * (straight) or a half (cubic). */
+/* The pieces of a table meet at knots, h apart. A straight piece of the function f has the largest error h^2/8 f'' and
+ * the average error h^2/12 f''. A cubic piece has the largest error h^4/384 f'''' and the average error h^4/720 f''''.
+ * A rotating mechanism accumulates the average error, so corrected() subtracts an estimate of this error. */
 
 typedef struct table_functions {
     const op_list *list;
@@ -131,7 +129,7 @@ typedef struct table_functions {
     const int *function; /* [tables] index of each table's function in the list */
 } table_functions;
 
-/* Returns of[at] minus its estimated average error. of[cells] is periodic, and `cells` is a power of two. */
+/* Returns of[at] minus the average error of the pieces near knot `at`. of[] repeats after `cells`, a power of two. */
 static double corrected(const double *of, int cells, int at, int terms) {
     const int last = cells - 1;
     const double here = of[at & last];
@@ -525,7 +523,7 @@ typedef struct tabling {
     products *from;
     refusal *why;
     int *turns;    /* [angles] the tables' phase is the sum of turns[i] * (turn angle i) */
-    int *multiple; /* [coefficients->count] as in turn_evaluate(), for the tables' phase */
+    int *multiple; /* [coefficients->count] argument of turn_evaluate() for the tables' phase */
     coefficient *coefficient; /* [count] first all of result 0, then all of result 1, ... */
     int count;
     int *table; /* [tables] index of each table's function in products.coefficients */

@@ -5,7 +5,7 @@
 #include "host/image/image.h"
 #include "host/image/op_list.h"
 
-/* The reason why a list cannot have tables, in words that follow "the accelerations ", and a hint. */
+/* Why a list cannot have tables. The message has the words "the accelerations " before `reason`. */
 typedef struct refusal {
     const char *reason;
     const char *hint;

@@ -406,7 +406,7 @@ static bool has_multi_step(const image *im) {
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    /* the scene follows the functions, because their local names would hide it */
+    /* the scene comes after the functions, because a local variable may have the scene's name */
     c_header_link(out, "scene", im->name, c_header_of_image, im);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -441,7 +441,6 @@ static void write_scene(FILE *out, const image *im) {
         im->outputs > 0 ? "observe" : "NULL");
 }
 
-/* The list that a step computes: the matrix, or each stage's right-hand side. */
 static const op_list *moving(const image *im) {
     return im->list[im->list[IMAGE_MATRIX] != NULL ? IMAGE_MATRIX : IMAGE_STEP];
 }
@@ -573,7 +572,7 @@ void emit_c(FILE *out, const image *im, const char *file) {
     const int components = second ? im->coordinates : im->angles + im->reals;
     const int stages = wh_methods[im->settings.method].stages;
     write_banner(out, im, file);
-    /* at least 4 stages: gcc would spill as many values if the arrays were smaller */
+    /* smaller arrays, for fewer than 4 stages, would not reduce gcc's register spills */
     fprintf(out, "#define WH_COORDS %d\n#define WH_STAGES %d\n", components,
             stages > 4 ? stages : 4);
     if (turns) {
