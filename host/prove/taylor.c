@@ -73,7 +73,7 @@ static void dual_divide(enclosure *to, const enclosure *a, int width) {
     }
 }
 
-/* Computes the derivatives of a function of `a` whose value is to[0] and whose derivative is `slope`. */
+/* The chain rule: `slope` is the derivative of a function by a[0]. */
 static void dual_chain(enclosure *to, enclosure slope, const enclosure *a, int width) {
     for (int j = 1; j < width; j++) {
         to[j] = enclosure_mul(slope, a[j]);
@@ -275,7 +275,7 @@ bool taylor_find(taylor *t, const enclosure *x) {
     return finite;
 }
 
-/* The products of enclosures for a node's coefficients up to this order: coefficient k is a sum of k + 1 products. */
+/* The number of products in a node's coefficients 0 .. order: coefficient k has k + 1 products. */
 static double products_to(int order) { return 0.5 * (double)(order + 1) * (double)(order + 2); }
 
 double taylor_products(const taylor *t) {
@@ -284,7 +284,7 @@ double taylor_products(const taylor *t) {
         const node_kind kind = t->motion->node[i].kind;
         const bool is_sum = kind == NODE_NUMBER || kind == NODE_VARIABLE || kind == NODE_SUM ||
                             kind == NODE_DIFFERENCE || kind == NODE_MULTIPLE;
-        sums += is_sum ? 0.0 : 1.0; /* of products */
+        sums += is_sum ? 0.0 : 1.0;
     }
     return sums * (products_to(t->order) +
                    2.0 * (double)(t->width - 1) * (t->width > 1 ? products_to(t->slopes_to) : 0.0));

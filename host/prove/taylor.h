@@ -1,6 +1,5 @@
-/* taylor.h: the Taylor coefficients of a motion at a time, x(t + h) = sum of x_k h^k, by recurrences (Moore; Rall and
- * Corliss, An introduction to automatic differentiation, 1996). They are enclosed for all motions through a box of
- * states. Those of low order may have derivatives by the state. */
+/* taylor.h: enclosed Taylor coefficients x_k of all motions through a box of states, x(t + h) = sum of x_k h^k, by
+ * recurrences (Moore; Rall and Corliss, An introduction to automatic differentiation, 1996). */
 #ifndef PROVE_TAYLOR_H
 #define PROVE_TAYLOR_H
 
@@ -20,7 +19,7 @@ void taylor_free(taylor *t);
 /* Computes all coefficients for x[states]. Returns false if one is not finite. */
 bool taylor_find(taylor *t, const enclosure *x);
 
-/* Estimates the products of enclosures in one taylor_find(). */
+/* Estimates how many products of enclosures taylor_find() computes. */
 double taylor_products(const taylor *t);
 
 /* Coefficient k of state i: the value, followed by its derivatives if k <= slopes_to. */

@@ -34,7 +34,7 @@ void show_lets_begin(show *s, const equations *e) {
     s->lets->below = s->lets->count;
 }
 
-/* Does p contain the terms of value * ratio? The terms of both are in the same order. */
+/* Sets *ratio so that p contains all terms of value * ratio. Returns false if no ratio does. */
 static bool is_part(const poly *p, const poly *value, double *ratio) {
     int at = 0;
     for (int i = 0; i < value->count; i++) {
@@ -53,7 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the let with the longest value that, times *ratio, is p (if `whole`) or some terms of p; else NULL. */
+/* Returns the let with the longest value such that value * *ratio is p or, unless `whole`, a part of p; else NULL. */
 static const let_row *show_let(const show *s, const poly *p, bool whole, double *ratio) {
     let_row *best = NULL;
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
@@ -353,7 +353,6 @@ static int show_rank(const atom *x) {
 
 void show_times(const show *s) { fputs(s->style == SHOW_LATEX ? " \\, " : "*", s->out); }
 
-/* Prints the sign between two factors, unless this is the first. */
 static void show_separate(const show *s, bool *first) {
     if (!*first) {
         show_times(s);
@@ -444,7 +443,7 @@ static void show_sign(const show *s, bool negative, bool first) {
     }
 }
 
-/* Powers of the sine and cosine of one angle that all terms share; angle NULL: none. */
+/* The factor sin(angle)^sines * cos(angle)^cosines; 1 if angle is NULL. */
 typedef struct wave {
     const poly *angle;
     int sines;
@@ -481,7 +480,7 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
     show_symbol(s, let, 0);
 }
 
-/* Prints the names of terms of *p, and removes these terms from *p. Returns false if no term remains. */
+/* Prints lets for terms of *p, and removes these terms from *p. Returns false if no term remains. */
 static bool show_let_parts(const show *s, const poly **p, bool *leading) {
     algebra *a = s->algebra;
     double ratio;
@@ -668,7 +667,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     for (int i = 0; i < count; i++) {
         negative = negative && pieces[i].coefficient < 0.0;
     }
-    if (count == 1) { /* a single product, written with its key */
+    if (count == 1) {
         const poly *whole = poly_mul(a, p, key);
         if (!algebra_overflow(a) && pieces_of(a, whole, pieces) == 1) {
             show_sign(s, pieces[0].coefficient < 0.0, leading);
@@ -745,7 +744,7 @@ static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     return key;
 }
 
-/* The terms with the same rates and accelerations (key), divided by the key. */
+/* The part terms * key of a sum. `key` is a product of rates and accelerations. */
 typedef struct collected {
     const poly *key;
     const poly *terms;

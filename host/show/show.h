@@ -49,7 +49,7 @@ const poly *show_common(algebra *a, const poly *p);
 
 /* === products ================================================================================= */
 
-/* Returns a common factor of the coefficients. If `whole`, small fractions divided by it are whole numbers. */
+/* Returns a common factor of the coefficients. `whole`: division by this factor also removes small denominators. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
 /* Prints the sign between two factors. */
@@ -92,8 +92,7 @@ void show_fraction(const show *s, const poly *top, const poly *bottom);
  * the equations. A variable with a reserved name gets a longer one. */
 void show_octave(FILE *out, const equations *e, bool (*is_free)(const char *name));
 
-/* Prints the derivation: the Lagrangian; for each coordinate its momentum, the momentum's rate, the derivatives of L
- * and F, Q, and the equation. A system of equations has no energies, and so no derivation. */
+/* Prints the derivation of each equation of motion from the Lagrangian. A system of equations has no Lagrangian. */
 void show_steps(FILE *out, const equations *e, show_style style);
 
 #endif

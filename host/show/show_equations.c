@@ -13,7 +13,7 @@
 static void show_equation(const show *s, const equations *e, int i);
 
 /* === show break =============================================================================== */
-/* Breaks long LaTeX formulas at signs between terms or factors, also inside groups, into rows of amsmath's aligned. */
+/* Breaks long LaTeX formulas into rows of amsmath's environment `aligned`. */
 
 /* Widths in points, in 10 pt type. LINE_WIDTH: a line of LaTeX's article, less 25 for the equation's number. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
@@ -639,7 +639,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divides *top and *bottom by their common factors. The odd scale of *bottom prevents terms from cancelling. */
+/* Divides *top and *bottom by their common factors. The factor 0.739... keeps terms of the sum from cancelling. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);

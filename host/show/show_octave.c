@@ -127,7 +127,7 @@ static void name_all(variables *all, const equations *e) {
     }
 }
 
-/* Writes the state by number: values, then rates, and so on. */
+/* In Octave's state y, all values come before all rates. */
 static void write_state(const show *s, const equations *e, bool slopes) {
     int number = 1;
     for (int level = 0; level < PRIMES_MAX; level++) {

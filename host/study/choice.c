@@ -67,7 +67,7 @@ static double figure_of(const table *made, const choice_row *row, int kind) {
                                            : of->result.error;
 }
 
-/* Rows are sorted by price. If several have the least figure, the first is chosen, because it is the cheapest. */
+/* If rows have equal figures, the cheapest row wins, because made->row is sorted by price. */
 choice choice_make(const trials *t, const table *made, const choice_request *w) {
     choice c;
     for (int i = 0; i < CHOICES; i++) {
@@ -90,10 +90,10 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
 /* --- counting --------------------------------------------------------------------------------------*/
 
 #define RUN_INSTRUCTIONS 1e9 /* most operations of a counted run: limits the emulator's time */
-/* Assumed price of an evaluation if no run with its number type is counted. It is low, so that such a run is chosen. */
+/* Assumed cost of an evaluation in an uncounted number type: low, so that choice_make() tries the type. */
 #define UNTRIED 1e-3
 
-/* Predicts the longest steps of uncounted rows. each[number type]: price of an evaluation; `last` sets one. */
+/* each[number type]: cost of an evaluation, 0 if not counted yet. `last` is the last counted row. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {
@@ -323,7 +323,6 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-/* For each limit that the row exceeds, prints one that the row keeps. */
 static void print_remedy(FILE *out, const trials *t, const table *made, const choice_request *w,
                          const choice_row *by) {
     char text[AMOUNT];

@@ -1,4 +1,4 @@
-/* choice.h: the rows of a table (price_table.h) with the fewest cycles and with the least flash, within limits. */
+/* choice.h: the fastest and the smallest row of a table (price_table.h) within limits of error, load, flash and RAM. */
 #ifndef STUDY_CHOICE_H
 #define STUDY_CHOICE_H
 
@@ -20,15 +20,16 @@ typedef struct choice_request {
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of RAM plus stack; 0: no limit */
-    bool counts; /* chosen rows will be counted; until then, upper bounds may exceed limits */
+    bool
+        counts; /* chosen rows will be counted; an uncounted row's upper bounds may exceed limits */
     const char *prices; /* the source of the prices, in words */
 } choice_request;
 
 /* A row compared with the limits. */
 typedef struct choice_row {
     int row;      /* index of the row in the table, or -1 */
-    double worst; /* cycles (if unknown: instructions) of the longest step / step in s */
-    double load;  /* computing time of the longest step per simulated time; 0: unknown */
+    double worst; /* cycles (instructions if unknown) of the longest step, per simulated second */
+    double load;  /* computing time of the longest step / simulated time of a step; 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */
     unsigned unknown; /* bits: limits whose figures are unknown for this row */
@@ -51,14 +52,14 @@ typedef struct choice {
 
 choice choice_make(const trials *t, const table *made, const choice_request *w);
 
-/* Like choice_make(), but counts chosen rows and chooses again, until every chosen row is counted. With contacts, an
- * uncounted row is assumed to take as many cycles per evaluation as the last counted row with the same number type. */
+/* Repeats choice_make() and measured_count() until every chosen row is counted. If there are contacts, an uncounted row
+ * gets the cost per evaluation of the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_request *w, choice *c);
 
-/* Prints the fastest and the smallest row. If no row keeps the limits, prints higher limits that rows would keep. */
+/* Prints the fastest and the smallest row. If no row is within the limits, prints limits that are high enough. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c);
-/* Prints the two rows as one JSON object (schema: docs/warnings.md), without higher limits. `status`: exit status. */
+/* Prints the fastest and the smallest row as one JSON object (schema: docs/warnings.md). `status`: exit status. */
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, int status);
 

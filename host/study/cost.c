@@ -19,8 +19,7 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* Boards without counted cycles have a range of cycles per instruction. Its lower end assumes the core's largest issue
- * width. Its upper end is well above the 1.2 to 1.7 of a Cortex-M4 (Arm's timing). */
+/* With COST_RANGE, cycles_least assumes the core's largest issue width; cycles_most exceeds a Cortex-M4's 1.7 (Arm). */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
@@ -49,7 +48,7 @@ const cost_board *cost_board_named(const char *name) {
 /* Lists of at most this many operations are inlined (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
 enum { REGISTERS = 16 };   /* number of state and stage values that FPU registers hold */
-enum { SUMS_CARRIED = 9 }; /* additions per compensated real in a step by a matrix */
+enum { SUMS_CARRIED = 9 }; /* extra additions for each of im->reals if sums are compensated */
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
     c->run[class] += run;
@@ -73,11 +72,10 @@ static cost_class class_of(const op *o) {
 
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
-/* How often a step evaluates an operation. If inlined, once for all stages that give it the same value. */
 typedef struct times {
-    double stages; /* depth_of() is 2 */
-    double places; /* depth_of() is 1 */
-    double once;   /* depth_of() is 0 */
+    double stages; /* evaluations per step of an operation with depth_of() 2 */
+    double places; /* evaluations per step of an operation with depth_of() 1 */
+    double once;   /* evaluations per step of an operation with depth_of() 0 */
 } times;
 
 /* 0: operation i has the same value at all stages. 1: it depends on positions. 2: it depends on rates, or is a call. */

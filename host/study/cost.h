@@ -50,7 +50,7 @@ typedef struct cost_board {
     const char *name;    /* folder in boards/, or "host" (x86-64) */
     const char *core;    /* "Cortex-M4F" */
     bool fpu;            /* the core computes float in hardware */
-    cost_basis cycles;   /* source of cycles */
+    cost_basis cycles;   /* how the board's cycles are found, such as COST_SIMULATED */
     double cycles_least; /* per instruction, with COST_RANGE; else 0 */
     double cycles_most;
     double clock_Hz;  /* the chip's clock as the board sets it, or 0 */
@@ -121,13 +121,13 @@ typedef struct cost_row {
     cost_number number;
     cost_quantity quantity;
     double within;  /* prediction / within <= count <= prediction * within in nine of ten cases */
-    double longest; /* the longest step divided by the mean step; 1 for bytes */
+    double longest; /* cost of the most expensive step / mean cost of a step; 1 for bytes */
     double figure[COST_CLASSES]; /* of one operation, or COST_UNSEEN */
 } cost_row;
 
 #define COST_UNSEEN (-1.0) /* no counted step has an operation of this class */
 
-/* The counts for a quantity: executions for time, copies in the firmware for bytes. */
+/* Returns c->run if the quantity is instructions or cycles; returns c->code if it is bytes. */
 const double *cost_counted(const cost_counts *c, cost_quantity quantity);
 
 /* === the price of a step ====================================================================== */
@@ -169,13 +169,13 @@ enum { COST_COLUMNS = 15 };
 /* Cuts a row at its commas outside quotes. Returns false if its number of columns is not `columns`. */
 bool cost_cut(char *row, char **column, int columns);
 
-/* A row of counts has `columns` columns; the last three are bytes of flash, RAM, stack. Other members: indices. */
+/* A row of counts has `columns` columns, the last three in bytes: flash, RAM, stack. Others: column indices. */
 typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;
 extern const cost_layout cost_step_layout; /* of COST_HEADER */
-/* Cuts a row into column[at->columns], and raises smaller figures of `c` to its counts. Returns false if the row has
- * another layout or board, or does not count instructions. */
+/* Cuts a row into column[at->columns]. If a count of the row exceeds the figure in `c`, the count replaces the figure.
+ * Returns false if the row has another layout or board, or does not count instructions. */
 bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c);
 
 #endif

@@ -53,7 +53,7 @@ typedef struct gauge {
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
 /* `epsilon`: relative round-off of a sample. Returns NaN if there is no value, such as the period of a constant.
- * If a sum or difference of samples overflows, a period is infinite, not NaN. */
+ * A period is infinite if a sum or difference of samples overflows. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
@@ -63,7 +63,7 @@ typedef struct measure {
     const expr *of;
 } measure;
 
-/* The measure's column has this symbol's declared unit, divided by s for each prime of m->of. NULL: the SI unit. */
+/* The measure's column is in this symbol's declared unit / s^n, n = m->of->primes. NULL: the column is in SI units. */
 const symbol *measure_symbol(const measure *m);
 
 typedef struct measures {
@@ -92,7 +92,7 @@ typedef struct point_notes {
 /* The objects that a sweep points to must outlive its runs. No run changes them. */
 typedef struct sweep {
     const grid *grid;
-    const mechanism *mechanism; /* if there are measures, they are its outputs */
+    const mechanism *mechanism; /* equals &measures->mechanism if measures is not NULL */
     const measures *measures;   /* NULL if the sweep is a map */
     const scene *scene;         /* NULL for a bare mechanism */
     const overrides *changes;   /* changes by the command line; swept values come from `grid` */
@@ -116,10 +116,11 @@ bool sweep_can_share(const grid *g, const image *im);
 /* The declared unit after a column's name, such as " [deg]"; "" for SI, or if `of` is NULL. The caller frees it. */
 char *sweep_unit(const symbol *of, int primes);
 
-/* sweep_header() writes the CSV header and its line end. sweep_swept_fields() writes the swept values of one point,
- * without a line end. sweep_swept_value() returns text: the value `si` of one axis, as in a row. */
+/* Writes the CSV header with a line end. */
 void sweep_header(const sweep *s, FILE *out);
+/* Returns `text`: the SI value `si` in the unit of the axis. */
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
+/* Writes the swept values of one point, without a line end. */
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
 /* The image of a point. Returns NULL, and reports the reason, if the point has no image that can start. */
@@ -130,9 +131,8 @@ image *sweep_image(const sweep *s, uint64_t point, diags *errors);
 bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors, FILE *reason,
                    point_notes *notes);
 
-/* Runs the point and writes its row, with the line's end. If the run fails, or a measure, an energy or a contact's
- * expression is not finite, only the swept columns are filled. Then the result is false, and one line on `reason` gives
- * the cause. After an interrupt the row is invalid. */
+/* Runs the point and writes its row, with a line end. If sweep_image() or sweep_measure() fails, the row has only
+ * swept values, `reason` gets a line with the cause, and the result is false. After an interrupt the row is void. */
 bool sweep_point(const sweep *s, uint64_t point, FILE *row, FILE *reason, point_notes *notes);
 
 #endif

@@ -354,7 +354,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char step[NUMBER_SIZE];
     char until[NUMBER_SIZE];
     const bool runs = t->image[0]->contacts > 0;
-    /* the command makes a run: with contacts to count it, in fixed point to find ranges */
+    /* fixed point needs a run to find the ranges of quantities */
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->request.board->name, s->number->name,
@@ -385,7 +385,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* Marks rows of the front. From each to the next, the error falls to 1/factor or less. Returns their number. */
+/* Marks a row of the front if its error is at most 1/factor of the last marked row's. Returns the number of marks. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;
@@ -640,7 +640,7 @@ void table_json(FILE *out, const trials *t, const table *made, int status) {
 #define COUNTS "mk/price/measure_one.sh"
 #define STATUS_MISSING 2 /* exit status of measure_one.sh: wrong arguments or a missing tool */
 
-/* line[]: the last line that a command prints, or the first that contains `with`. Returns the exit status, or -1. */
+/* Reads the first line that contains `with`, or the last line if no line does. Returns the exit status, or -1. */
 static int line_from(const char *command, const char *with, char *line, int size) {
     FILE *from = system_read_from(command);
     if (from == NULL) {
@@ -731,7 +731,7 @@ measured_end measured_count(const trials *t, table *made, int row) {
         return MEASURED_MISSING;
     }
     int kept = 0;
-    /* if so, the counts apply only to rows with the same step; else, to all rows of the setting */
+    /* true: the counts apply only to rows with the same step */
     const bool by_pace = runs || setting_price_varies(&counted.setting);
     const deviation_pace pace = counted.pace;
     for (int i = 0; i < made->count; i++) {

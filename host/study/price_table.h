@@ -42,7 +42,7 @@ typedef struct table_row {
 } table_row;
 
 typedef struct table {
-    table_row *row; /* [count] by price, then by error */
+    table_row *row; /* [count], sorted by price; rows of equal price, by error */
     int count;
     int settings;    /* number of settings that the scene allows */
     int unpriced;    /* number of settings without a price, which are left out */
@@ -56,9 +56,9 @@ typedef struct table {
 typedef struct table_request {
     double operations;  /* limit on the operations of all trials */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
-    double error;       /* requested error; a setting's trials end at half of it; 0: no request */
+    double error;       /* requested error; 0: no request */
     double rate_Hz;     /* rate of calls; each makes a whole number of steps; 0: no request */
-    uint64_t periods;   /* periods, 1/rate_Hz, from one record to the next; 1 without a rate */
+    uint64_t periods;   /* number of periods of 1/rate_Hz s between two records; 1 without a rate */
     int workers;
     bool shows; /* progress on standard error */
 } table_request;
@@ -81,7 +81,7 @@ void table_sort(table *made);
 /* The price of steps of this length. */
 table_price table_price_of(const cost *c, double step_s);
 
-/* "predicted: within 8 % in nine of ten counted cases". Returns text. */
+/* Returns `text`: a figure's basis in words, such as "predicted: within 8 % in nine of ten counted cases". */
 enum { FIGURE_WORDS = 120 };
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 
@@ -93,7 +93,7 @@ extern const char *const table_heads[];
 
 /* Prints how many settings were tried, how many have no price, and for how many --effort was too small. */
 void table_print_left(FILE *out, const table *made);
-/* Prints at most TABLE_ROWS rows of the front, or every row. */
+/* Prints every row if `all`, else at most TABLE_ROWS rows of the front. */
 enum { TABLE_ROWS = 12 };
 void table_print(FILE *out, const trials *t, const table *made, bool all);
 void table_csv(FILE *out, const trials *t, const table *made);
@@ -107,7 +107,7 @@ void table_json_row(json *j, const trials *t, const table_row *row);
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point);
 /* The command `whirl derive ... --as c` with this setting and step, and the scene's own values. The caller frees it. */
 char *table_derive_line(const trials *t, const setting *s, deviation_pace pace);
-/* The command that counts this row's step, in Whirl's source tree: `sh mk/price/measure_one.sh ...`. */
+/* The command `sh mk/price/measure_one.sh ...` that measures a step in Whirl's source tree. The caller frees it. */
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point);
 
 /* === counted prices =========================================================================== */

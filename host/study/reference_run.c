@@ -78,11 +78,11 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 #define ENOUGH 1e-11 /* halving ends if no column differs by more than this part of its `largest` */
 /* A record is trusted if the two runs differ by at most this part of each column's largest value. */
 #define LIMIT 1e-9
-/* A column is known if the two runs still agree when its magnitude reaches this part of its largest value. */
+/* A column is known if the two runs agree until its magnitude has grown to this part of its largest value. */
 #define KNOWN_BY 1e-6
 /* An unknown column is only round-off if its largest value is this many times larger in float than in double. */
 #define ROUGHER 0x1p15
-/* Least `off` of a column, as a part of its `largest`. Both runs share the round-off of constants and of the start. */
+/* Least off / largest of a column, for round-off that the two runs share. */
 #define SHARED (16.0 * DBL_EPSILON)
 #define EVENTS 3.0 /* contacts multiply the evaluations of a step by about this factor */
 
@@ -153,7 +153,7 @@ static bool measure(reference *r, const computed *other, int until, int column) 
     return known;
 }
 
-/* Measures all columns, and decides which ones count. If needed, computes *rough, the run in float. */
+/* Decides which columns count. If a column is not known, computes *rough, the run in float. */
 static void weigh(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   computed *rough) {
     const int until = r->records < 0 ? 0 : r->records;
@@ -203,7 +203,7 @@ static bool moves(const reference *r) {
 
 /* --- the steps ---------------------------------------------------------------------------------------*/
 
-/* The even number of steps from one record to the next: `finer` times the scene's, or what w->operations allows. */
+/* Returns an even number of steps between two records, at most what w->operations allows. */
 static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =
@@ -228,7 +228,7 @@ static void say(const reference_request *w, reference *r, uint64_t steps, int re
     } else if (reached < r->wanted) {
         r->why = alloc_words("the run fails after %.9g s", time_of(w, r->records));
     }
-    r->reliable = r->records >= 1 && reference_agreement(r, -1) > 0.0; /* 0: no column counts */
+    r->reliable = r->records >= 1 && reference_agreement(r, -1) > 0.0;
     r->still = !r->reliable && r->why == NULL && !moves(r);
     if (!r->reliable && r->why == NULL) {
         r->why = alloc_words(

@@ -1,6 +1,6 @@
-/* reference_run.h: an accurate motion, with which priced runs are compared at evenly spaced records. It is computed in
- * double with compensated sums and short steps. A second run has twice the step. The difference of the two runs
- * estimates the reference's error, except errors of operations, sines and event search: both runs have the same. */
+/* reference_run.h: a run in double with short steps and compensated sums, with which priced runs are compared. A second
+ * run with twice the step estimates the reference's error. The estimate omits errors that the two runs share: those of
+ * operations, sines and event search. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -27,7 +27,8 @@ typedef struct reference_request {
 typedef struct reference_column {
     bool counts;    /* it is a coordinate or rate, and its values are more than round-off */
     double largest; /* largest magnitude in the trusted records */
-    double off;     /* largest difference of the two runs; if steps > 0, divided by 2^order - 1 */
+    /* largest difference of the two runs; divided by 2^order - 1 if reference_steps.steps > 0 */
+    double off;
 } reference_column;
 
 typedef struct reference {
@@ -65,7 +66,7 @@ typedef struct deviation_pace {
 } deviation_pace;
 
 typedef struct deviation_of_what {
-    int column;     /* compared in its unit; -1: all that count, each as a part of its `largest` */
+    int column;     /* the compared column; -1: all with `counts`, errors as parts of `largest` */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 

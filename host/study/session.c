@@ -190,7 +190,7 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s) {
         }
         forget(sh);
         write_error_say(s->path);
-        return sh->out != NULL ? EXIT_RUN_FAILED : EXIT_BAD_INPUT; /* as for `run` */
+        return sh->out != NULL ? EXIT_RUN_FAILED : EXIT_BAD_INPUT;
     }
     sh->is_file = true;
     const int file = open(s->path, O_RDWR | O_CREAT, 0666);

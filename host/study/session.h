@@ -31,7 +31,7 @@ typedef struct resumable_csv_settings {
     const char *fingerprint; /* lines of "name: value" */
     const char *header;      /* header with its line's end, or "" */
     uint64_t rows;           /* number of rows of the complete file, without the header */
-    int measures;            /* number of fields after the swept ones; empty if the point failed */
+    int measures;            /* number of fields after the swept fields */
     /* The swept fields of row `row`, as in the file. */
     void (*swept)(const void *context, uint64_t row, FILE *out);
     const void *context;
@@ -45,7 +45,7 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s);
 bool resumable_csv_close(resumable_csv *sh);
 
 /* === the axes of a sweep ====================================================================== */
-/* The SI unit of an axis, in the declared spelling if the declared unit is SI. The caller frees it. */
+/* The declared unit of an axis if it is an SI unit, else the axis's SI unit. The caller frees the text. */
 char *sweep_axis_unit(const axis *a);
 /* Writes name and unit of each axis as JSON (docs/warnings.md has the schema). */
 void sweep_json_axes(json *j, const grid *g);
@@ -63,7 +63,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 
 /* === running the points ======================================================================= */
 
-/* Draws the progress line again. Of `end` points, `from` were done `elapsed_s` ago, and `done` are done now. */
+/* Draws the progress line again. `done` of `end` points are done; `elapsed_s` ago, `from` points were done. */
 void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s);
 
 typedef struct session_settings {

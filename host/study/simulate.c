@@ -124,7 +124,7 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
-/* Marks the step's events, except releases of stops, and events that coincide in a picture with the last mark. */
+/* Marks the step's events in the plot, except releases of stops. */
 static void mark_events(simulation *sim, uint64_t step) {
     engine_event list[WH_EVENT_LOG];
     plot_run *to = &sim->course;
@@ -223,7 +223,6 @@ static void say_saturated(const simulation *sim) {
     }
 }
 
-/* Warns of a restitution, which may be an expression, that left its range. */
 static void say_clamped(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const engine_clamped c =

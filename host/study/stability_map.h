@@ -1,8 +1,7 @@
-/* stability_map.h: a map over two swept values. It shows for which of their pairs a scene's run is bounded, conserves
- * energy, and is accurate to a tolerance.
+/* stability_map.h: a map over two swept values. A cell shows whether a run is bounded, accurate, and conserves energy.
  *
  * A finer run (host/check/step_doubling.h) shows until when a run is accurate. The energy residual
- * (host/check/energy_residual.h) shows whether the run conserves energy. A swept step varies along the rows. */
+ * (host/check/energy_residual.h) shows whether the run conserves energy. */
 #ifndef STUDY_STABILITY_MAP_H
 #define STUDY_STABILITY_MAP_H
 
@@ -37,13 +36,13 @@ typedef struct map_cell {
     map_verdict verdict; /* with MAP_NONE and MAP_UNTRIED the other fields are not set */
     double end_s;        /* the run's last time */
     double until_s;      /* the run is accurate to the tolerance until this time */
-    double left_over;    /* |energy residual| / (largest entry of its balance); NAN: unknown */
+    double left_over;    /* |residual| / largest entry of the energy balance; NAN: unknown */
 } map_cell;
 
 typedef struct map_request {
     sweep of; /* a sweep with two axes */
     double tolerance;
-    void (*progress)(double runs, void *context); /* `runs`: completed runs; may be NULL */
+    void (*progress)(double runs, void *context); /* may be NULL; `runs`: completed runs */
     void *context;
 } map_request;
 
@@ -68,7 +67,7 @@ double map_row(const stability_map *m, uint64_t row);
 
 /* Prints a line for each row, with one mark for each point of the row. `words` describe the run. */
 void map_print(FILE *out, const stability_map *m, const char *words);
-/* Writes a row for each completed pair: both values, verdict, times, energy residual. */
+/* Writes a CSV row for each completed cell: two swept values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);
 /* Writes the map as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
 void map_json(FILE *out, const stability_map *m, const image *of, const map_request *w, int status);

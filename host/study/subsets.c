@@ -176,7 +176,6 @@ static bool terms_act(const lane *all, vector_field *less) {
     return act;
 }
 
-/* Marks the effect of this contact as acting. The statement's place in the source identifies the effect. */
 static void contact_acts(subsets *s, int contact) {
     for (int i = 0; i < s->of->contact_count; i++) {
         const contact_statement *c = &s->of->contacts[i];

@@ -1,7 +1,7 @@
 /* subsets.h: runs of a scene without some of its effects, compared with the run that has all of them.
  *
- * The runs step side by side in double. An effect acts only if some record differs without it. In addition, a term must
- * change a slope by more than round-off, and a contact other than friction must have an event or be closed. */
+ * The runs step side by side in double. An effect acts only if leaving it out changes a record. A term must also change
+ * a slope by more than round-off. A contact other than friction must also have an event or be closed. */
 #ifndef STUDY_SUBSETS_H
 #define STUDY_SUBSETS_H
 
@@ -45,11 +45,11 @@ typedef struct subsets {
 /* Makes the image of the full scene. False, reported: no image, or too many effects. Always call subsets_close(). */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
-/* Runs the full scene and those without one effect. False, reported: the full run diverges. */
+/* Runs the full scene, and for each effect the scene without that effect. False, reported: the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
 /* Leaves out every combination of acting effects. If more than SUBSETS_ALL_MOST act, sets *greedy and leaves out one
- * more effect at a time. Returns the cheapest of the subsets within the limits that have the fewest effects. */
+ * more effect at a time. Returns the subset within the limits with the fewest effects; if several, the cheapest one. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif

@@ -30,8 +30,7 @@ const char *setting_word(const setting *s, setting_axis axis);
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
-/* Is the setting's method requested? If `method` is NULL, the requested methods are rk4 and nystroem3 to nystroem5: in
- * the median over docs/figures/price.csv, no other method is cheaper. A setting with a matrix counts as rk4. */
+/* Is the setting's method requested? If `method` is NULL, rk4, nystroem3, nystroem4 and nystroem5 are requested. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
 /* setting_order(): a sort key. setting_number(): index of the number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
@@ -47,11 +46,11 @@ bool setting_may_be_refused(const image_settings *s);
 bool setting_is_own(const setting *s, const image *im);
 /* Is the number type fixed point? Fixed point does not support every scene, nor every step length. */
 bool setting_is_fixed(const setting *s);
-/* Does the cost of a step depend on its length? True with a matrix (entries), and in fixed point (shifts). */
+/* Does the cost of a step depend on the step length? True with a matrix, and in fixed point. */
 bool setting_price_varies(const setting *s);
 
 enum { SETTING_TEXT = 160 }; /* room for setting_options() */
-/* Returns text: the options of `whirl derive`, " --method rk4", or if `with_number`, those of `whirl run`. */
+/* Returns `text`: options of `whirl derive`, or if `with_number`, of `whirl run`, such as " --method rk4". */
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]);
 /* Additional option of `whirl derive --as c`: " --number fixed", or "". */
 const char *setting_form(const setting *s);
@@ -88,7 +87,7 @@ typedef struct trials {
     image **image; /* [points] images of the references */
     reference **reference; /* [points] */
     int worst;             /* the point with the worst reference */
-    int records;           /* records after the start for which all references are trusted */
+    int records;           /* number of records after the start trusted in every reference */
     deviation_of_what what;
     double tolerated;    /* with --of: errors up to this, in trial_unit(), are always usable */
     bool reliable;       /* all references are reliable */
@@ -116,8 +115,8 @@ void trial_end(trials *t);
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Estimated operations of trial_run(), without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* The setting's cost at the most expensive point. Sets *own to false if setting_is_own() returns false, or if the scene
- * refuses the setting with this step. In fixed point the function runs the scene to find ranges of quantities. */
+/* Returns the setting's cost at the most expensive point. Sets *own to true if setting_is_own() is true and the
+ * scene does not refuse the setting with this step. A fixed-point setting needs a run to find ranges. */
 cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own);
 
 const char *trial_place(const trials *t, int point);
@@ -127,7 +126,7 @@ double trial_horizon_s(const trials *t);
 const char *trial_unit(const trials *t);
 /* Converts an error from trial_unit() to SI. */
 double trial_error_si(const trials *t, double error);
-/* The component's name: "X", "theta'". Returns text. */
+/* Returns `text`: the column's name with primes, such as "theta'". */
 enum { TRIAL_NAME = 96 };
 const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
