@@ -111,7 +111,8 @@ void options_forget(common_options *options);
 /* Adds --set, and takes ownership of the text. NULL adds nothing. */
 void options_set(common_options *options, char *text);
 
-/* If words[*at] is an option of `groups`, stores the value, advances *at and returns true. A wrong value sets *bad. */
+/* If words[*at] is an option of `groups`, stores its value and advances *at. Returns true if a value was found. A
+ * wrong, missing or repeated value sets *bad. */
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 

@@ -368,7 +368,7 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     return sum;
 }
 
-/* Returns false (reported) if an input of the mechanism occurs in `momentum`. */
+/* Returns false (reported) if `momentum` contains an input without a rate. */
 static bool momentum_free_of_inputs(const equations *e, const poly *momentum, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char hint[RATE_HINT_SIZE];
