@@ -1,7 +1,6 @@
-/* vcd.h: a value change dump for waveform viewers (IEEE 1364, 18). A signal is a wire of one bit, a real number, or an
- * event without a value. Vectors have crashed viewers, so no signal is one. A wire or real is written only if its
- * printed value changes. Written times are whole numbers of the dump's unit, and increase. vcd_change() may be called
- * in any order of times. If a time is earlier than the last written one, the change is written at that last time. */
+/* vcd.h: a value change dump for waveform viewers (IEEE 1364, 18). A signal is one bit, a real number, or an event
+ * without a value. A bit or real number is written only if the printed value changes. Changes may come in any order
+ * of time. A change before the last written time is written at the last written time. */
 #ifndef IO_VCD_H
 #define IO_VCD_H
 
@@ -14,15 +13,15 @@ enum { VCD_FINEST = 15 };
 typedef struct vcd vcd;
 typedef enum vcd_kind { VCD_WIRE, VCD_REAL, VCD_EVENT } vcd_kind;
 
-/* Begins a dump on `out`, which vcd_end() leaves open. `what` becomes its comment, 10^-power s its unit of time, and
- * `scope` its first scope. Real numbers have `digits` significant digits. */
+/* Begins a dump on `out`. The caller closes `out`. `what` is a comment in the dump. Times are in 10^-power s.
+ * `scope` is the name of the first scope. Real numbers have `digits` significant digits. */
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits);
 
 /* Begins a scope for the following signals. */
 void vcd_scope(vcd *v, const char *scope);
 
-/* Adds a signal, and returns its number. Call it before vcd_settle(). In the name, blanks and colons become _, and
- * brackets are removed. If the result is no identifier, as der(x), it gets a backslash. `note`: a comment, or NULL. */
+/* Adds a signal, and returns the signal's number. Call vcd_add() before vcd_settle(). The dump's name has no blanks,
+ * colons or brackets. `note`: a comment, or NULL. */
 int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note);
 
 /* Sets the value from this time (at least 0) on. A wire is 0 for 0, unknown for NaN, and 1 for other values. */

@@ -47,7 +47,6 @@ static contact_statement contact_begun(const parser *in, const statement_word *w
         .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
 }
 
-/* Reports a quantity of a stop, hold or when that does not depend on the motion. */
 static void check_moves(parser *in, place at, const expr *value, const char *rule) {
     if ((value->uses & USES_UNKNOWNS) == 0 && !value->dim.unknown) {
         diag_error(in->diags, at, NULL, "%s", rule);
@@ -243,7 +242,7 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* Reads an optional direction. Reports any other name, and returns false if it is no misspelt direction. */
+/* Returns false if a name is neither a direction nor a misspelt direction. */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;

@@ -225,7 +225,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            /* `any`: a literal zero, which fits every dimension. Only a let keeps this. */
+            /* Only a let may be a zero that fits every dimension. */
             made->dim.any &= made->kind == SYM_LET;
         }
     }

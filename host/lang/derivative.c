@@ -294,8 +294,7 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* If `rates`, finds an input that is the rate of another input; else an input that has no rate. Each search needs a
- * new `mark`, so that it visits each let once. */
+/* Each search needs a new `mark`: find_input() skips a let that has `mark`. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;

@@ -11,7 +11,7 @@
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
 /* Reads the condition of a hold. The expression is above zero if the condition is true. NULL after an error. */
 const expr *parse_condition(parser *in);
-/* Reads a unit token, or the rest of the source if the token is a name. *text: the unit without blanks. */
+/* Reads a unit. If the token is a name, the unit extends to the end of the source. *text: the unit without blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
 /* Returns a hint if a later statement of the same mechanism declares the name, else NULL. */
@@ -20,7 +20,7 @@ const char *hint_declared_later(parser *in, const token *name);
 void no_such_coordinate(parser *in, const token *name);
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
-/* Reads "= EXPR" after `name`, and appends it to the list, unless `of` is NULL because `name` was an error.
+/* Reads "= EXPR" after `name`. Appends the assignment to *list if `of` is not NULL.
  * `statement`: WORD_SET, WORD_START or WORD_WHEN. */
 bool parse_assigned(parser *in, const token *name, const symbol *of, word_id statement,
                     const assignment **list, int *count);
@@ -50,11 +50,11 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 bool check_named(parser *in, place at, const expr *value, dimension wanted, const char *subject,
                  const char *verb);
 /* Returns false, and reports an error at `at`, if a nonzero value has no unit and `of` is not declared in SI.
- * `primes` is the order of the derivative of `of` that gets the value. The value must have been read just before. */
+ * `primes`: the number of primes of `of` in the assignment. Call check_unit() just after the value is read. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
 /* As check_unit(), with the number of primes of `name`. Also checks the dimension. */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for a limit `value` of the expression `of`. Requires a unit only if `of` is a single symbol. */
+/* As check_unit(), for a limit of a single symbol `of`. Returns true if `of` is a parameter or no single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif

@@ -8,7 +8,7 @@
 /* A rate in SI units, far below the rates of real motions. */
 #define NEAR_REST 1e-6
 
-/* Does the tree contain an unknown, or a derivative of one, that is not the rate of `own`? */
+/* Does the tree depend on coordinates or rates other than the rate of `own`? */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;

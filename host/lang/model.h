@@ -30,12 +30,12 @@ typedef struct symbol {
     bool is_angle;       /* coordinate or state: declared in rad, deg or rev */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
     place at;            /* place of its declaration */
-    int index;           /* number among the mechanism's symbols of this kind, as declared */
+    int index;           /* index in the mechanism's list of this kind, such as parameters[] */
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: order of its highest derivative; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* Inside a step, a driven coordinate replaces an input that has a rate. It comes after the declared coordinates.
-     * The input and its rate point to the driven coordinate, which points to the input. Other symbols have NULL. */
+    /* input with a rate, or the rate: the driven coordinate that replaces the input inside a step;
+     * driven coordinate: the input; else NULL */
     const struct symbol *driven;
 } symbol;
 
@@ -44,14 +44,14 @@ static inline bool symbol_moves(const symbol *s) {
     return s->kind == SYM_COORDINATE || s->kind == SYM_STATE;
 }
 
-/* If the input `s` has a driven coordinate, returns that coordinate. *primes = 1 if `s` is the rate of another input,
- * else 0. Returns any other symbol unchanged, and does not set *primes. */
+/* If a driven coordinate replaces `s`, returns the coordinate. *primes is 1 if `s` is the coordinate's rate, else 0.
+ * If no driven coordinate replaces `s`, returns `s`, and does not set *primes. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
 /* Returns the input that is the acceleration of `driven`; NULL if the rate of `driven` is constant inside a step. */
 const symbol *symbol_acceleration(const symbol *driven);
 
-/* Writes a hint that declares the rate of an input to buffer[RATE_HINT_SIZE]: two statements that can be pasted. */
+/* Writes two statements, which declare the rate of an input, to buffer[RATE_HINT_SIZE]. Returns `buffer`. */
 enum { RATE_HINT_SIZE = 320 };
 char *input_rate_hint(const symbol *input, char *buffer);
 
@@ -116,8 +116,7 @@ typedef struct effect {
     int last_line; /* end of its block */
 } effect;
 
-/* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, with a constant expression. Or an assignment of a `when`, whose
- * expression may contain coordinates, rates, parameters and inputs. */
+/* NAME = EXPR in a `set`, `start` or `when`. In a `set` or `start`, EXPR is constant. */
 typedef struct assignment {
     const symbol *symbol;
     int primes;
@@ -128,9 +127,9 @@ typedef struct assignment {
 /* One contact, handled inside the step (core/contact.h). */
 typedef struct contact_statement {
     contact_kind kind;
-    /* stop: left - right (coordinates, no rates); >= 0 when apart
-     * hold: the expression whose rate is zero while the hold acts (coordinates, no rates)
-     * when: left - right (rates allowed)
+    /* stop: the gap, an expression without rates
+     * hold: an expression without rates, which is constant while the hold acts
+     * when: left side minus right side
      * friction: NULL */
     const expr *value;
     const symbol *coordinate;    /* friction: the coordinate whose motion it opposes; else NULL */
@@ -284,9 +283,9 @@ typedef struct instance {
     const expr **parameter_given; /* [parameter_count] expression of each parameter */
     const expr **input_given;
     given_value **start_given; /* [coordinate_count][order]; a missing expression means 0 */
-    double **start;     /* [coordinate_count][order, at least 2] [i][k]: initial derivative k, SI */
-    int *start_count;   /* [coordinate_count] order of each: number of its initial values */
-    range_value *range; /* [range_count] */
+    double **start;            /* [coordinate_count][max(order, 2)] initial value, rate, ..., SI */
+    int *start_count;          /* [coordinate_count] number of initial values */
+    range_value *range;        /* [range_count] */
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */

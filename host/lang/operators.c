@@ -118,7 +118,7 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
 
-/* Reports `value` if it is a number without a unit and `angle`, the other operand, is not declared in rad. */
+/* Reports a number without a unit beside an angle that is not declared in rad. */
 static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;

@@ -7,9 +7,9 @@
 
 typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } override_kind;
 
-/* Reads "NAME=EXPR" or "NAME'=EXPR". A unit needs no brackets. A number without a unit is SI; it is refused if the
- * declared unit is not SI. If `around` is not NULL, the hint for a missing unit has these two texts before and after
- * the value. Returns false after an error, reported in a source called "<command line>". */
+/* Reads "NAME=EXPR" or "NAME'=EXPR". EXPR needs a unit if NAME is not declared in SI. The unit needs no brackets.
+ * `around`: the texts before and after the value in the hint for a missing unit, or NULL. Returns false after an error,
+ * reported in a source called "<command line>". */
 bool override_parse(const mechanism *of, override_kind kind, const char *text,
                     const char *const around[2], struct arena *arena, diags *diags,
                     assignment *made);
@@ -22,8 +22,8 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,
                               dimension wanted, struct arena *arena, diags *diags);
 
-/* Reads VALUE from "VALUE" or "NAME=VALUE", in SI. If `name` is a coordinate, a rate ("theta'") or an output, VALUE
- * must have its dimension. The unit may be omitted if the declared unit is SI. Returns NULL after an error. */
+/* Reads VALUE from "VALUE" or "NAME=VALUE". If `name` is a coordinate, a rate ("theta'") or an output, VALUE must have
+ * the dimension of `name`, and needs a unit if `name` is not declared in SI. Returns NULL after an error. */
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);
 

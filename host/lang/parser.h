@@ -124,8 +124,8 @@ const char *parser_nearest(const parser *in, const nearest *search, const char *
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
 void parser_skip_newlines(parser *in); /* skip empty lines only */
-/* Skips empty lines. Returns true if a statement of the block follows. Returns false at the end of the text, at '}'
- * (sets *closed), or at a word that has `rule` (ENDS_EFFECT, ...), because the block's '}' is missing before it. */
+/* Skips empty lines. Returns false at the block's end. *closed is false if the '}' is missing there.
+ * `rule`: ENDS_EFFECT, ENDS_SCENE or ENDS_WHEN, for the kind of block. */
 bool parser_in_block(parser *in, unsigned rule, bool *closed);
 /* Returns the hint for a missing operator before the current name, number or '('. */
 const char *parser_operator_hint(const parser *in);

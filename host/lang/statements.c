@@ -146,7 +146,7 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === checks of a complete mechanism =========================================================== */
 
-/* If `in` is NULL, raises each state's order to its highest derivative in `tree`. Otherwise, reports higher ones. */
+/* If `in` is NULL, raises each state's order. If not, reports derivatives above the order. */
 static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;

@@ -14,7 +14,7 @@ statement_reader read_stop, read_friction, read_hold;    /* contact_statement.c 
 statement_reader read_when;                              /* contact_statement.c */
 statement_reader read_noise;                             /* declare.c */
 
-/* Reports that the contact cannot be combined with state and equation. */
+/* Reports that the contact is not possible in a mechanism with `state` and `equation`. */
 void contact_on_system(parser *in, const contact_statement *each);
 
 /* True if both are the same effect, or if one is the mechanism itself (-1), which is always active. */

@@ -16,8 +16,7 @@ char *shown_unit_name(const symbol *s, int primes);
 /* Returns the name of the SI unit of the same quantity. The caller frees it. */
 char *shown_si_name(const symbol *s, int primes);
 
-/* Returns the text of a value in the file or on the command line, such as "0.72 [lb]", with single blanks, or NULL if
- * there is no text. The caller frees it. */
+/* Returns a value as the user wrote it, such as "0.72 [lb]", or NULL. The caller frees the text. */
 char *shown_written(const expr *given);
 /* As shown_written(), for a formula. NULL for a single number, with or without a unit. */
 char *shown_formula(const expr *given);

@@ -1,5 +1,5 @@
-/* words.h: the words of the language. A new statement is a row of BODY_WORD_ROWS or SCENE_WORD_ROWS and its reader. A
- * new word inside a statement is a row of INNER_WORD_ROWS. docs/language.md must list all words. */
+/* words.h: the words of the language. A statement has a row in BODY_WORD_ROWS or SCENE_WORD_ROWS. A word inside a
+ * statement has a row in INNER_WORD_ROWS. docs/language.md must list all words. */
 #ifndef LANG_WORDS_H
 #define LANG_WORDS_H
 

@@ -128,7 +128,7 @@ bool schema_take(schema *s, const char *line) {
     return strncmp(line, "OK 0=", 5) == 0;
 }
 
-/* Reads bytes[field->size]. Returns false for the number that means "no value". */
+/* Returns false if the bytes are the number that means "no value". */
 static bool schema_value(const schema_field *field, const uint8_t *bytes, double *value) {
     const uint32_t raw = wire_number(bytes, field->size);
     const uint32_t top = field->size > 0 ? 1U << (8U * field->size - 1U) : 0;

@@ -36,8 +36,7 @@ typedef struct schema {
     schema_channel channel[SCHEMA_CHANNELS];
 } schema;
 
-/* Takes an answer of the console. Returns true if it describes a channel or a new rate, or lists the states, "OK 0=idle
- * 1=armed ...". An unreadable answer changes nothing. */
+/* Takes a console's answer. If the answer describes no channel, rate or states, changes nothing, and returns false. */
 bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);

@@ -27,7 +27,7 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
         fraction = fraction << 4 & ((UINT64_C(1) << FRACTION) - 1);
     }
     digits[count > 1 ? count : 0] = '\0';
-    const int exponent = scale > 0 ? scale - BIAS : count > 1 ? 1 - BIAS : 0; /* 0x0p+0 */
+    const int exponent = scale > 0 ? scale - BIAS : count > 1 ? 1 - BIAS : 0; /* zero is 0x0p+0 */
     snprintf(text, HEX_SIZE, "%s0x%d%sp%+d", sign, scale > 0 ? 1 : 0, digits, exponent);
     return text;
 }
@@ -172,8 +172,7 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
     return quotient;
 }
 
-/* Returns the bits of the double nearest to a number. The number is quotient * 2^exponent, or slightly larger if `rest`
- * is true. The quotient's highest bit is bit 62 or 63. *side: the sign of the number minus the double. */
+/* Rounds quotient * 2^exponent, or slightly more if `rest`. The quotient's highest bit is bit 62 or 63. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* exponent of the highest bit */

@@ -67,7 +67,7 @@ static enclosure waves(enclosure t, int from) {
     return sum;
 }
 
-/* Subtracts the nearest number of quarter turns; *quarters: this number mod 4. False if x is too large or wide. */
+/* Returns false if x is too large or too wide. *quarters: the subtracted quarter turns, modulo 4. */
 static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
     if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {

@@ -14,7 +14,7 @@
 
 #include "host/number/functions.h"
 
-/* for its checks of the compiler's arithmetic */
+/* core/real.h checks the compiler's arithmetic. */
 #include "core/real.h"
 
 #if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
@@ -63,7 +63,7 @@ static inline enclosure enclosure_widened(enclosure a, double by) {
 static inline double enclosure_lesser(double a, double b) { return a < b ? a : b; }
 static inline double enclosure_larger(double a, double b) { return a > b ? a : b; }
 
-/* Encloses four rounded products or quotients. `zero`: they are exactly zero, if finite. */
+/* Encloses the exact values of four rounded products or quotients. If `zero`, the exact values are 0. */
 static inline enclosure enclosure_of_four(double p, double q, double r, double s, bool zero) {
     const double bad = (p + q) + (r + s); /* not finite if one of the four is not */
     if (!(bad - bad == 0.0)) {

@@ -33,8 +33,7 @@ static uint64_t mixed(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/* Returns the number of doubles by which an inexact result is moved up, or down if negative. In the ways from
- * FOLDING_SOME on, the number depends only on the digits of x and y, not on their signs, powers of two and order. */
+/* Returns by how many doubles an inexact result is moved: up if > 0. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -55,7 +54,6 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Returns the double nearest to `exact`. If it differs from `exact`, it is moved by moved_by() doubles. */
 static double other_neighbour(double_double exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -110,7 +108,6 @@ static void note_sum(double x, double y, double sum) {
     note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
 }
 
-/* Records the loss in a power of a residue. If exponent < 0, no digit is correct. If not, `power` is a residue. */
 static void note_power(double base, double exponent, double power) {
     if (is_rest(base)) {
         if (exponent < 0.0) {
@@ -121,7 +118,7 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* Records the loss in a function of a residue. `at_zero`: the function's value at 0. */
+/* The function's argument is only round-off. `at_zero`: the function's value at 0. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -146,7 +143,7 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* In FOLDING_OTHER, a move of the quotient in (K + k)/K - 1 could undo the move of K + k. */
+/* FOLDING_OTHER moves no product or quotient: in (K + k)/K, two moves could cancel. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }

@@ -1,17 +1,15 @@
-/* folding.h: constant folding in derivations, with a record of the digits that it loses.
+/* folding.h: constant folding in derivations, with a record of the lost digits.
  *
- * A folded sum k1 + k2 is one double: the smaller addend loses its digits below the last digit of the larger. Usually
- * that does not matter. But if elimination, or a sum at run time, cancels the larger addend, only the smaller one with
- * its lost digits remains. All users of the folded sum have lost the same digits, so no comparison of two runs shows
- * the loss. Two checks address this:
- *   - A sum records its loss: its round-off, relative to the smallest of the addends and the result. A residue is a
- *     result that is only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3, or a product with a residue. A residue is
- *     a loss if it exceeds 1e-12 in SI units, if it is a divisor, or if it is a large part of a sum.
- *   - A derivation can be repeated in another *way*, in which inexact results are moved by one or two doubles, and
- *     nearly equal numbers are not merged. There are several ways, because round-offs may cancel in one by chance
- *     (Vignes, A stochastic arithmetic for reliable scientific computation, 1993, does this at run time).
+ * A folded sum k1 + k2 is one double, so the smaller addend loses digits. The loss matters if a later sum cancels the
+ * larger addend. No comparison of two runs shows the loss, because both runs use the folded sum. Two checks do:
+ *   - Each sum records its round-off, relative to the smallest of the addends and the result. A *residue* is a result
+ *     that is only round-off, such as cos(90 deg). A residue is a loss if it exceeds 1e-12 (SI), is a divisor, or is a
+ *     large part of a sum.
+ *   - A derivation can be repeated in another *way*. The ways differ in the rounding of inexact results, and in the
+ *     merging of nearly equal numbers. There are several ways, because round-offs may cancel by chance in one
+ *     way (compare Vignes, A stochastic arithmetic for reliable scientific computation, 1993).
  *
- * folding_use() sets the `folding` of the whole program, as a processor's rounding mode is set. */
+ * folding_use() sets the `folding` of the whole program. */
 #ifndef NUMBER_FOLDING_H
 #define NUMBER_FOLDING_H
 
@@ -43,11 +41,10 @@ double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
 double folding_power(double base, double exponent);
-/* A sine, cosine or tangent is a residue if it is not larger than the round-off of its angle. */
+/* A sine, cosine or tangent that is only round-off, such as cos(90 deg), is recorded in folding.rest. */
 double folding_call(function_id function, double x, double y);
-/* Returns true if |left| <= part * size. `left` is a sum or difference of terms that are about as large as `size`.
- * Records a loss if the result is true although |left| exceeds the round-off of a few operations. In ways other than
- * FOLDING_NEAREST, returns true only if `left` is exactly zero. */
+/* Returns true if |left| <= part * size, for a sum `left` of terms that are about as large as `size`. Records a loss if
+ * the result is true, but |left| is larger than round-off. In any way except FOLDING_NEAREST, returns left == 0. */
 bool folding_cancels(double left, double size, double part);
 /* folding_cancels() for x - y, with the larger absolute value as `size`. */
 bool folding_same(double x, double y, double part);

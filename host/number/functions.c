@@ -1,4 +1,4 @@
-/* functions.c: the language's functions in double. Functions that round are computed by the core's double build. */
+/* functions.c: the language's functions in double. The core's double build computes sines, powers and roots. */
 #include "host/number/functions.h"
 
 #define WH_DOUBLE 1
@@ -127,7 +127,7 @@ double number_scaled(double x, int exponent) {
         x *= 0x1p1023;
     }
     for (; exponent < -1022; exponent += 969) {
-        x *= 0x1p-969; /* keeps 53 bits, so only the last step rounds */
+        x *= 0x1p-969; /* a factor of 0x1p-1022 could round x twice */
     }
     return x * wh_power_of_two(exponent);
 }
@@ -181,7 +181,7 @@ double number_centred(double x, double y) {
     }
     /* the remainder of x / (2 * by), because a tie must go to the even multiple of `by` */
     double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
-    const bool twice = by < 0x1p-1021; /* because by / 2 may underflow */
+    const bool twice = by < 0x1p-1021; /* 0.5 * by could underflow */
     if (twice ? rest + rest > by : rest > 0.5 * by) {
         rest -= by;
         rest = (twice ? rest + rest >= by : rest >= 0.5 * by) ? rest - by : rest;

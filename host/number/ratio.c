@@ -133,8 +133,7 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* Finds the shortest decimal whose relative error is at most 2^-52. *said: 10 to the power of its number of digits.
- * Returns false if it has more than 15 digits, or does not fit into a whole_ratio. */
+/* Finds the shortest decimal within a relative error of 2^-52. *said: 10^(number of digits). */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
@@ -220,7 +219,7 @@ double ratio_times(uint64_t count, whole_ratio each) {
     int shift = 0;
     while (
         !uint128_is_zero(of) &&
-        /* `of` has fewer than 127 bits; 127 give a quotient of at least 67 bits, more than the 53 of a double */
+        /* The loop ends when `of` has 127 bits. The quotient has at least 67 bits, more than the 53 of a double. */
         of.high >> 62 == 0) {
         of = uint128_left(of, 1);
         shift++;

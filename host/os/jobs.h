@@ -15,7 +15,7 @@ typedef struct jobs {
     void *context;
     /* In a worker: writes the point's row, and one line or nothing to `reason`. Returns false if the point failed. */
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
-    /* In the parent, in the order of points. Returning false ends all work. */
+    /* Runs in the parent, for one point after another. If deliver() returns false, all work ends. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
     /* In the parent, after some rows or a short time: writes delivered rows to disk, and shows the progress. */
     bool (*pause)(void *context, uint64_t next);

@@ -1,4 +1,4 @@
-/* port.h: a serial line, a pseudo-terminal, or a file recorded from one. A program has one at a time. */
+/* port.h: a serial line, a pseudo-terminal, or a file with recorded bytes. A program can open one port at a time. */
 #ifndef OS_PORT_H
 #define OS_PORT_H
 
@@ -27,9 +27,9 @@ void port_say_unopened(const char *name, const char *hint);
 /* Restores the line's settings. */
 void port_close(port *p);
 
-/* Waits at most wait_ms, then reads at most `room` bytes. If `typed` is not NULL, a line on standard input also ends
- * the wait, and sets *typed. Returns the number of bytes, 0 if there are none yet, or -1 if the peer is gone, the file
- * has ended, or the read failed (`failed`). */
+/* Waits at most wait_ms for bytes, and reads at most `room` bytes. If `typed` is not NULL, a line on standard input
+ * ends the wait, and sets *typed. Returns the number of bytes, which may be 0. Returns -1 if the peer is gone, a file
+ * has ended, or the read has failed. After a failed read, p->failed is not 0. */
 int port_read(port *p, uint8_t *bytes, size_t room, int wait_ms, bool *typed);
 
 /* Returns false if the peer is gone, or accepts nothing for a second. */

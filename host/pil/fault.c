@@ -212,7 +212,7 @@ static const struct {
     fault_kind kind;
     const char *input;
     bool times;   /* true: multiply the input by the fault's size; false: replace the input */
-    double value; /* the input's new value; 0: the fault's size is the new value */
+    double value; /* used instead of the fault's size, if not 0 */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
     {FAULT_CELL_GAIN, "cell_gain", true, 0.0},

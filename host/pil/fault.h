@@ -1,8 +1,7 @@
 /* fault.h: injected faults in a run in the loop. The controller's code is not changed. A fault is
- * KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1. Without it, a fault of edges affects
- * all edges, but a fault of samples only channel 1. WHEN is TIME, NOTE=VALUE or NOTE=VALUE~TIME. With NOTE=VALUE, the
- * fault begins when the firmware's note equals VALUE; with ~TIME, it begins that much later. Without WHEN, a fault
- * begins at the start. Without DURATION, it lasts to the end. */
+ * KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1. The default is all edges, or sample
+ * channel 1. WHEN is the TIME at which the fault begins, by default 0, or NOTE=VALUE[~TIME]. With NOTE=VALUE~TIME, the
+ * fault begins TIME after the firmware's note equals VALUE. Without DURATION, the fault lasts to the end. */
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 

@@ -24,7 +24,7 @@ static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* The tape gets exactly the received bytes, because a frame has only one coding. */
+/* Coding the frame again gives the received bytes. */
 static void keep_heard(talk *t, const wh_frame *frame) {
     uint8_t coded[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     keep_on_tape(t, coded, wh_frame_write(frame, coded, sizeof coded));
@@ -91,7 +91,7 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* Requests the firmware's hello. After an end message, this frame acknowledges the message. */
+/* WH_FRAME_ASK requests the hello, or acknowledges the end message. */
 static guest_heard ask(talk *t) {
     uint8_t coded[WH_FRAME_BYTES(0)];
     const wh_frame frame = {.kind = WH_FRAME_ASK};
@@ -109,7 +109,6 @@ static bool take_end(talk *t, const wh_frame *frame) {
     return ends(t->report, when_ended());
 }
 
-/* Receives the next frame, but stores remembered data, and skips repeated hellos. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
         if (frame->kind == WH_FRAME_END) {

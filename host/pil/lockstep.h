@@ -121,7 +121,7 @@ uint64_t talk_hash(uint64_t hash, const wh_orders *orders);
 /* Adds `count` and the bytes to a hash. */
 uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count);
 
-/* Are program, ticks and signals equal? The timer that counts instructions may differ. */
+/* Are program, ticks_per_s, start_ticks and signals equal? Ignores timer_per_s and the board. */
 bool talk_is_same_hello(const wh_hello *one, const wh_hello *other);
 
 /* Instructions per tick, if the firmware's timer counts them; else 0. */

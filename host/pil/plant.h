@@ -1,8 +1,7 @@
 /* plant.h: a scene as a controller's hardware. The scene runs in double, with sensors and actuators around it. Time is
- * in ticks of the controller's timer since the plant's start. An edge occurs in a step that begins with a quantity
- * outside its signal's range, and ends with the quantity inside or beyond the range. The time of the edge comes from
- * the cubic through values and rates at both ends of the step. A sample is taken at the first step end at or after its
- * instant. Outputs change only at ends of steps. */
+ * in ticks of the controller's timer since the plant's start. An edge occurs when a quantity enters its signal's range.
+ * A cubic through values and rates at both ends of the step gives the edge's time. A sample is taken at the first step
+ * end at or after the sample's due time. Outputs change only at ends of steps. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 

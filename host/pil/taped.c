@@ -188,7 +188,7 @@ typedef struct rows {
     int decimals; /* decimal places of a printed time: enough to resolve a tick */
     uint32_t ticks;
     uint64_t heard;              /* ticks from plant time 0 to the present message */
-    bool cut;                    /* a row has reported the cut */
+    bool cut;                    /* a row for WH_READING_CUT has been printed */
     bool has_rows;               /* value[] is valid: it has the last printed values */
     float value[WH_SIGNALS_MAX]; /* of each output, then of each note */
 } rows;

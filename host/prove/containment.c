@@ -53,8 +53,8 @@ static void read_run(const going *g) {
     }
 }
 
-#define LITTLE 1e-3 /* least range, relative to the state's largest value and ranges in its unit */
-#define STILL 1e-9  /* SI; used if the range is 0, because no tube can prove an error of 0 */
+#define LITTLE 1e-3 /* least range, as a part of a larger value or range */
+#define STILL 1e-9  /* range in SI instead of 0, because no tube can prove an error of 0 */
 
 static const image_unit *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
@@ -160,7 +160,7 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     return count;
 }
 
-/* Makes one step of the tube, and the run's steps that end in it. Returns false if the tube ends. */
+/* Returns false if the tube ends. */
 static bool go_on(going *g) {
     const image *im = g->request->image;
     const double left_s = 1.001 * ratio_times(g->held->run_steps - g->done, im->step);

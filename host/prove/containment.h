@@ -15,7 +15,7 @@ typedef struct containment_request {
     const image *image;
     const engine_kind *kind;
     double tolerance;
-    const double *within; /* [states] allowed errors, SI; 0: tolerance times range */
+    const double *within; /* [states] allowed errors, SI; 0 means tolerance * the state's range */
     double products_most; /* limit on products of enclosures; 0: none */
     /* Called at the start and at each step's end that the tube reaches. exact[states] encloses the exact motion;
      * run[states] has the run's values. Both are in SI. `see` may be NULL. */
@@ -46,7 +46,7 @@ typedef struct containment_state {
     bool open;
     bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
     double range; /* greatest minus least value in the run, at least 1e-3 of the largest |value| */
-    /* allowed error: as requested, or the tolerance times max(`range`, 1e-3 of the largest range in this unit) */
+    /* allowed error, SI: as requested, or from the tolerance and the ranges */
     double within;
     double until_s;
     double off;    /* upper bound on the state's error until until_s */

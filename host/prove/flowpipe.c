@@ -9,9 +9,9 @@
 #include "host/number/functions.h"
 
 /* === axes that turn with the motion =========================================================== */
-/* A rotated box fits closely into a new box along these nearly orthogonal axes (Lohner 1987, see flowpipe.h). */
+/* Axes along the longest vectors keep a box small (Lohner 1987, see flowpipe.h). */
 
-/* Copies the columns of `of` to a[n * n], in order of their length times radii[n], longest first. */
+/* Copies `of` to `a`, with columns sorted by length times radii[column], largest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
     bool *taken = alloc(n, sizeof *taken);
     for (int c = 0; c < n; c++) {
@@ -37,7 +37,7 @@ static void sorted(int n, const double *of, const double *radii, double *a) {
     free(taken);
 }
 
-/* Reflects columns from..n-1 of m by the vector v, whose first k entries count as 0. */
+/* Householder's reflection by v. The first k entries of v count as 0. */
 static void reflect(int n, double *m, const double *v, int k, int from) {
     double norm = 0.0;
     for (int i = k; i < n; i++) {
@@ -54,8 +54,7 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
     }
 }
 
-/* Computes axes[n * n], in columns: the columns of `of`, orthogonalized in sorted order (Householder's reflections).
- * Doubles suffice: their round-off can only widen the result. */
+/* Round-off in `axes` is harmless: worse axes only widen the result. */
 static void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
     double *a = alloc((int64_t)n * n, sizeof *a);
     double *v = alloc((int64_t)n * n, sizeof *v); /* row k: vector of reflection k */
@@ -180,7 +179,7 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* Computes radius[n]: the extents of the generators from..count-1 along the axes. */
+/* radius[i]: extent along axis i of the generators with index >= `from` */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {
@@ -285,7 +284,7 @@ static void reduce(zonotope *z, double *rounding) {
     free(radius);
 }
 
-/* Replaces `vector` by the middle of map vector + more, and adds the radius to `rounding`. `more` may be NULL. */
+/* Computes vector = map * vector + more. Adds the radius of the result to `rounding`. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *rounding) {
     for (int i = 0; i < n; i++) {
@@ -405,8 +404,7 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
     return taylor_find(series, x);
 }
 
-/* Encloses the sum of tau^k c_k over k <= order. For entry 0, c_k is the Taylor coefficient of state i over `box`.
- * Otherwise, it is the derivative of this coefficient with respect to state entry - 1. */
+/* Encloses the Taylor polynomial of state i, or if entry > 0, its derivative by state (entry - 1). */
 static enclosure polynomial(const flowpipe *t, int i, int entry, int order, enclosure tau) {
     enclosure sum = taylor_of(t->all, i, order)[entry];
     for (int k = order - 1; k >= 0; k--) {
@@ -421,8 +419,7 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
                          taylor_of(t->over, i, t->order + 1)[0]);
 }
 
-/* Computes `stay`. Returns true if no motion from `box` leaves `stay` within h_s. This is proved if the Taylor
- * polynomial plus the remainder over `stay` is inside `stay`. *excess: largest ratio of a remainder to its limit. */
+/* Computes `stay`. Returns true if each motion from `box` is proved to remain in `stay` for h_s. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -547,7 +544,7 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     zonotope_box(t->off, t->box);
     t->products += 2.0 * (double)n * (double)n * (double)t->off->count;
     for (int i = 0; i < n; i++) {
-        /* the mean value theorem needs the derivatives between the centre and the motion */
+        /* the mean value theorem needs a box that contains the centre */
         const enclosure centre = enclosure_of(t->centre[i]);
         t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
         finite = finite && enclosure_is_finite(t->box[i]);

@@ -13,10 +13,9 @@
 #include "host/prove/taylor.h"
 
 /* === zonotope ================================================================================= */
-/* A set of deviations from a centre: a known drift plus a sum of generators, each times any number from -1 to 1
- * (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61, 1998). Its image
- * under a matrix is exact, except for round-off, which becomes new generators. If there are too many generators, a box
- * replaces the smallest ones. */
+/* A set of deviations from a centre: a drift plus a sum of generators, each times any number from -1 to 1
+ * (Kuehn, Rigorously computed orbits of dynamical systems without the wrapping effect, Computing 61, 1998). Round-off
+ * becomes new generators. If there are too many generators, a box replaces the smallest ones. */
 
 typedef struct zonotope {
     int n; /* dimensions */
@@ -34,7 +33,7 @@ void zonotope_free(zonotope *z);
 void zonotope_box(const zonotope *z, enclosure *box);
 /* Computes nearly orthogonal axes, in the columns of axes[n * n]. off[n] encloses the deviation along these axes. */
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off);
-/* Replaces the set by one that contains M d + v for each old deviation d, M in map[n * n] and v in more[n]. */
+/* The new set contains M d + v for each old deviation d. map[n * n] encloses M, and more[n] encloses v. */
 void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more);
 
 enum { FLOWPIPE_ORDER = 26 };

@@ -90,8 +90,7 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
-/* Encloses x op y. If both are doubles and the rounded result is exact, returns this double, so that 2*3 is a whole
- * exponent. The test is Knuth's error of a sum or Dekker's error of a product, which requires sizes below 1e150. */
+/* Encloses x op y by one double if the result is exact (Knuth's sum, Dekker's product). */
 static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
@@ -106,7 +105,7 @@ static enclosure folded(char op, enclosure x, enclosure y) {
                    : (op == '+' ? enclosure_add(x, y) : enclosure_sub(x, y));
     }
     const double r = op == '*' ? a * b : a / b;
-    const double left = op == '*' ? a : r; /* r is exact if left * b = whole without error */
+    const double left = op == '*' ? a : r; /* a quotient r is exact if r * b = a */
     const double whole = op == '*' ? r : a;
     const double c = 0x1.0000002p27 * left;
     const double d = 0x1.0000002p27 * b;
@@ -382,7 +381,7 @@ static int read_symbol(reader_symbols *s, const expr *tree) {
     return refused(s, tree, "an output");
 }
 
-/* (e^a + sign e^-a) / 2 */
+/* sinh(a) if `sine`, else cosh(a) */
 static int hyperbolic(graph *g, int a, bool sine) {
     const int up = graph_exp(g, a);
     const int down = graph_exp(g, graph_neg(g, a));

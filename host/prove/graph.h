@@ -18,7 +18,7 @@ typedef enum node_kind {
     NODE_MULTIPLE, /* number * left */
     NODE_SQUARE,
     NODE_RATIO,
-    NODE_SINE,   /* the next node is its cosine; kinds from here on are functions of `left` */
+    NODE_SINE,   /* sine of `left`; the next node is the cosine */
     NODE_COSINE, /* right: the sine of the same angle */
     NODE_EXP,
     NODE_LOG,
@@ -72,7 +72,7 @@ int graph_without(graph *g, int a, int first);
 typedef struct reader_symbols {
     graph *graph;
     const instance *instance;
-    /* derivative p of unknown i has variable number first[i] + p if p < order[i]; number highest + i if p = order[i] */
+    /* Derivative p of unknown i is variable first[i] + p; the highest one (p = order[i]) is variable highest + i. */
     int *first;     /* [coordinate_count] */
     int *order;     /* [coordinate_count] */
     int highest;    /* number of states */

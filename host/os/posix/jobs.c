@@ -14,7 +14,7 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 
-#define AHEAD 8U /* pool.window, in points per worker */
+#define AHEAD 8U /* pool.window / number of workers */
 #define PAUSE_MS 50
 #define ASK_US 200000
 

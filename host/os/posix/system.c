@@ -1,4 +1,4 @@
-/* system.c: signals, clock and other programs of POSIX. */
+/* system.c: the functions of host/os/system.h for POSIX. */
 #include "host/os/system.h"
 
 #include <errno.h>
