@@ -24,9 +24,8 @@ typedef struct hal_slot_edge {
     uint8_t end;    /* HAL_SLOT_LEADING or HAL_SLOT_TRAILING */
 } hal_slot_edge;
 
-/* Takes the oldest edge, or returns false. At least 16 edges are stored; more are lost. Do not call this function from
- * an interrupt: the queue has one reader only. An edge of a pulse can be missing. Some boards give
- * only leading edges. */
+/* Takes the oldest edge, or returns false. The queue holds 16 edges or more. If the queue is full, edges are lost. Do
+ * not call this function from an interrupt. A pulse can lack an edge. Some boards give only leading edges. */
 bool hal_slots_take(hal_slot_edge *edge);
 
 /* Returns how often edges may have been lost. On the chips, a full queue pauses the capture until an edge is taken. */

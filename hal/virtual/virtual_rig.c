@@ -62,7 +62,7 @@ static float way_at(const slice *during, float s, float *slope) {
     return ((a * s + b) * s + during->before) * s;
 }
 
-/* Returns true if the rotor reaches the angle `edge` in this step. Sets *part to the part of the step before that. */
+/* If the rotor reaches the angle `edge` in this step, sets *part to the share of the step before `edge`. */
 static bool opens(const slice *during, uint32_t edge, bool forward, float *part) {
     const float gap = (float)(int32_t)(edge - during->phase);
     if (forward ? !(gap > 0.0f && during->way >= gap) : !(gap < 0.0f && during->way <= gap)) {
@@ -165,7 +165,7 @@ static void step(hal_virtual_rig *rig) {
     if (rig->status == WH_OK) {
         rig->status = wh_scene_step(rig->scene, &rig->state);
     }
-    during.way = (float)(int32_t)(rig->state.angle[0] - angle); /* fits: less than half a turn */
+    during.way = (float)(int32_t)(rig->state.angle[0] - angle); /* less than half a turn */
     during.after = hal_virtual_rig_speed_radps(rig) * scale;
     if (rig->status == WH_OK) {
         watch_slots(rig, &during, rig->ticks);

@@ -38,7 +38,7 @@ typedef struct hal_virtual_faults {
     unsigned lose_samples;   /* number of load samples still to lose */
     bool stuck_load_cell;    /* the load cell repeats its last count */
     float stuck; /* fraction of the supply voltage that is applied for any command; 0: no fault */
-    bool deaf;   /* if stuck > 0, the stage drives without `enabled`, unless `cut` or `stop_cuts` */
+    bool deaf;   /* if stuck > 0, the stage drives even if `enabled` is false */
     bool freewheels; /* the stage cannot brake */
 } hal_virtual_faults;
 
@@ -72,8 +72,8 @@ typedef struct hal_virtual_rig {
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
-/* Puts the rig at its scene's start, with motor and watchdog off. Returns false if the scene cannot start, or
- * does not have one angle, one input and 1 to 8 outputs. The scene's step must be whole microseconds (not checked). */
+/* Puts the rig at its scene's start, with motor and watchdog off. The scene must have one angle, one input and 1 to 8
+ * outputs. Returns false if the scene is unfit or cannot start. The step must be whole microseconds (unchecked). */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
 /* Advances the time by whole steps of the model until it is `ticks` or later. */

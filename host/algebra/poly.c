@@ -767,8 +767,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* The base is divided by its first coefficient, so that sums that differ only by a factor become equal. If the
-     * exponent is positive and whole, the constant does not count as the first term: x - 2 keeps its form. */
+    /* The base is divided by one coefficient, so that sums that differ only by a factor become equal. */
     const bool whole = exponent_is_whole(exponent);
     const bool constant = base->terms[0].mono->count == 0 && base->terms[0].mono->trig == TRIG_NONE;
     const double size = base->terms[constant && whole && exponent > 0.0 ? 1 : 0].coefficient;

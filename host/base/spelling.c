@@ -60,7 +60,7 @@ static int smaller(int a, int b) { return a < b ? a : b; }
 
 nearest nearest_start(const char *wanted, size_t length) {
     nearest search = {wanted, length, NULL, 0, 0};
-    /* one edit for 2 to 5 letters, length / 3 edits for more; one letter matches only its other case */
+    /* search.cost: a similar name must cost less; one edit costs 2 */
     search.cost = length <= 1 ? 2 : length < 6 ? 3 : 2 * (int)(length / 3) + 1;
     return search;
 }

@@ -1,5 +1,4 @@
-/* apart.c: start values that satisfy the holds. Newton's method finds the positions. One linear step finds the rates.
- * Each step is as small as possible. Start values that the scene sets change only if they must. */
+/* apart.c: start values that satisfy the holds: positions by Newton's method, rates by one linear step. */
 #include "apart.h"
 
 #include <math.h>
@@ -13,7 +12,7 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A hold's expression has an error if its |value| is nonzero and below OFF_MOST * terms(). A larger one is intended. */
+/* A hold's value is intended, not an error, if |value| is at least OFF_MOST * terms(). */
 #define OFF_MOST 0.5
 /* A hold's condition may become false just after the start, so it is evaluated SOON steps later. */
 #define SOON 1e-6
@@ -55,7 +54,6 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* Returns the value of a curved hold's expression if it is an error, else 0. If a->closes, OFF_MOST does not apply. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -111,7 +109,7 @@ static bool solve(int n, double *matrix) {
     return true;
 }
 
-/* Changes the x[i] with may[i] as little as possible, so that the expression of each hold h changes by by[h]. */
+/* Adds the smallest change to x that changes the expression of each hold h by by[h]. */
 static bool move(const apart *a, const bool *may, const double *by, double *x) {
     double matrix[HOLDS * (HOLDS + 1)] = {0.0};
     const int n = a->holds;
@@ -278,7 +276,7 @@ double apart_say(FILE *out, const char *who, const image *im) {
     }
     apart a = {.im = im, .forces = state_list_open(im, IMAGE_FORCES), .n = im->coordinates};
     const state_list signals = state_list_open(im, IMAGE_SIGNALS);
-    double soon[2 * N]; /* the state SOON steps after the start */
+    double soon[2 * N];
     for (int i = 0; i < 2 * a.n; i++) {
         a.x[i] = image_start(im, i);
     }

@@ -172,7 +172,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Updates terms[]. Each rate contributes the change of the momentum if only this rate is set to 0. */
+/* Updates terms[]. The term of a rate is the momentum minus the momentum with this rate at 0. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double state[3 * IMAGE_COMPONENTS_MAX];
@@ -214,7 +214,7 @@ double books_rounding_J(books *b, const engine_kind *kind, const void *run) {
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* Error bound of Simpson's rule for two steps: the difference from the trapezoidal rule if the power is smooth. */
+/* Error bound of Simpson's rule for two steps. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
@@ -262,7 +262,6 @@ static double reversed_J(books *b, const double *from) {
     return b->value[im->count + BOOK_KINETIC];
 }
 
-/* Sets rateless[] to the mean of the momenta with reversed rates (reversed_J()) and with actual rates (value[]). */
 static void take_rateless(books *b) {
     for (int i = 0; i < b->image->count; i++) {
         b->rateless[i] = 0.5 * (b->rateless[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
@@ -303,7 +302,7 @@ enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are search
 #define FRAME_ASIDE_S 1e-5 /* half the duration of the motion in momenta_change(), s */
 #define FRAME_LEAST 1e-6   /* momentum changes below this part of the largest one are round-off */
 
-/* Sets change[i] to the decrease of momentum i while the motion passes random state `draw`. False if not finite. */
+/* change[i]: the decrease of momentum i during a short motion through random state `draw`. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
     double to[2][3 * IMAGE_COMPONENTS_MAX];
@@ -357,7 +356,6 @@ static void find_frame(books *b) {
         leads[lead[r]] = true;
     }
     for (int c = 0; c < n && known; c++) {
-        /* if column c has no pivot, it has a null vector with |component i| = share; component c is 1 */
         for (int r = -1; r < rank && !leads[c]; r++) {
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);

@@ -24,7 +24,7 @@ typedef struct books {
     double *momentum;     /* [count] at the start of the run */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
-    double *terms;        /* [count] scale of a momentum: its largest sampled sum of |term| */
+    double *terms;        /* [count] largest sampled sum of |term| of a momentum */
     double state[3 * IMAGE_COMPONENTS_MAX]; /* now: angles, then reals */
     double kinetic_J[2];                    /* start, now */
     double moving_J[2];                     /* kinetic_J without terms of odd order in the rates */
@@ -37,8 +37,8 @@ typedef struct books {
     spread stored;
     spread *rate;       /* [count] */
     spread *push;       /* [count] momenta without rateless[] */
-    bool *frame;        /* [count] in a conserved sum: the mean depends on the reference frame */
-    double *rateless;   /* [count] part of a momentum that reversing all rates does not change */
+    bool *frame;        /* [count] the mean of the momentum depends on the reference frame */
+    double *rateless;   /* [count] terms of a momentum with even order in the rates */
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], divided by the unit round-off */
     double size_J;      /* largest |T| + |V| */
@@ -67,9 +67,9 @@ void books_close(books *b);
 void books_enter(books *b, const engine_kind *kind, const void *run);
 /* The residual of the energy: its change since the start, minus the work of inputs and losses; J. */
 double books_left_J(const books *b);
-/* Root mean square of a momentum over the run, without its rateless[] part, and without its mean if frame[] is set. */
+/* Root mean square of a momentum minus rateless[], over the run. If frame[] is set, returns the standard deviation. */
 double books_momentum(const books *b, int unknown);
-/* Largest swing of T, of V, or of a rate times books_momentum() / 2. A swing is sqrt(8) standard deviations. */
+/* Largest swing of T or V, or 0.5 * books_momentum() * (swing of a rate). A swing is sqrt(8) standard deviations. */
 double books_swing_J(const books *b);
 /* Samples rounding_J, computing_J and lost_J at the present state. Returns rounding_J plus the round-off of size_J. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run);

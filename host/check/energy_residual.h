@@ -2,7 +2,6 @@
  *
  * The residual is the change of the energy (T + V, or the energy integral if that differs) minus the work of inputs,
  * losses and contacts; zero for an exact solution. The ratio is |residual| divided by the largest entry of the balance.
- * No entry is a maximum over time, because a single state near a singular position would determine it.
  * docs/dev/events.md#the-energy-residual lists the entries, and the allowance for round-off.
  *
  * With --matrix exact the steps have no error, but integrating the powers has one. Its bound counts as round-off.

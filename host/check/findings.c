@@ -200,7 +200,7 @@ typedef enum remedy_outcome {
 
 /* A remedy must stay below this part of the limits, because the user's next run may round differently. */
 #define LEAVES 0.3
-#define PARTS_MOST 20000.0    /* largest divisor of the run's step that is tried */
+#define PARTS_MOST 20000.0    /* largest tried divisor of the run's step */
 #define COMPENSATED_FROM 10.0 /* in float, sums are compensated if the divisor is at least this */
 
 typedef struct request {
@@ -293,7 +293,6 @@ static bool try(search *s, const request *w) {
     return good;
 }
 
-/* Tries the settings in the run's number type; if that is float and fails, in double. */
 static bool try_either(search *s, request w) {
     if (try(s, &w)) {
         return true;
@@ -343,7 +342,7 @@ static remedy_outcome find(search *s, double parts) {
     return try_steps(s, w, parts) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-/* Tries options, and prints a hint with those that help. `parts`: divisor of the first finer step that is tried. */
+/* Prints a hint with the options that help. The first finer step is the run's step / `parts`. */
 static remedy_outcome say_options(FILE *out, const run_checks *v, double parts) {
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
@@ -414,7 +413,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
-/* The divisor of the step that should reduce the value of FINDING_ENERGY to 3e-4. */
+/* If the run's step is divided by this number, the value of FINDING_ENERGY should become 3e-4. */
 static double first_parts(const run_checks *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
@@ -488,7 +487,7 @@ void findings_say(FILE *out, const run_checks *v, bool fails) {
     }
     if ((fails || (v->warned & ~FINDING_OF_SCENE) != 0 || is_reported(v, FINDING_MASS)) &&
         !say_cause(out, v)) {
-        if (fails) { /* remedies are tried for the limits of warnings, not for that of --strict */
+        if (fails) { /* no remedy is tried for the limit of --strict */
             fputs("hint: try a smaller --step\n", out);
         } else {
             say_remedy(out, v);

@@ -7,13 +7,13 @@
 #include "host/base/diag.h"
 #include "run_checks.h"
 
-/* Prints findings, "whirl run: warning: ... [word]", and tried remedies. `fails`: FINDING_ENERGY is an error. */
+/* Prints the findings of a run, with hints. If `fails`, FINDING_ENERGY is an error, not a warning. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
-/* findings_message(): text of a reported finding. findings_where(): its column or contact; false: it has none.
- * findings_limit(): the limit that its value exceeds. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
+/* Prints the text of a reported finding. */
 void findings_message(FILE *out, const run_checks *v, finding_id id);
-double findings_limit(const run_checks *v, finding_id id);
+double findings_limit(const run_checks *v, finding_id id); /* the limit that the value exceeds */
+/* Writes the finding's column, contact or coordinate to name[]. Returns false if the finding has none of them. */
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);
 /* For a run that failed, or whose energies became undefined: prints options that prevent this, if Whirl finds any. */
 void findings_say_failed(FILE *out, const run_checks *v);

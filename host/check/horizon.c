@@ -15,8 +15,7 @@
  * resolves about 1e-7 of this magnitude. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A position counts as constant if its range is at most STAYS times its magnitude, or STAYS SI units. It is also
- * constant if its range is at most BESIDE_OTHERS times the largest range of positions with its unit. */
+/* A position is constant if its range is small, relative to its magnitude (STAYS) or other ranges (BESIDE_OTHERS). */
 #define STAYS 1e-9
 #define FLOAT_STAYS 3e-7 /* in float, a range up to this part of the magnitude is round-off */
 #define BESIDE_OTHERS 1e-3
@@ -50,7 +49,6 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* Can both runs share a round-off above `least`? */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));

@@ -40,7 +40,7 @@ typedef struct horizon {
 } horizon;
 
 horizon horizon_of(const step_doubling *t, double tolerance);
-/* False if only round-off moves column k, such as a column that symmetry keeps at zero: its error is meaningless. */
+/* False if only round-off moves column k. The error of such a column is meaningless. */
 bool horizon_moves(const step_doubling *t, int k);
 /* The run is accurate until this time, s; below 0: unknown (HORIZON_UNKNOWN, or the steps alias). */
 double horizon_trusted_s(const horizon *h);
@@ -48,7 +48,7 @@ void horizon_free(horizon *h);
 
 /* === aliasing ==================================================================================== */
 
-/* Sets t->aliased, or t->unaliased if the budget `of` is too small. Call it after both runs have ended. */
+/* Sets t->aliased. If the budget is too small, sets t->unaliased. Call this function after both runs have ended. */
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */

@@ -208,7 +208,6 @@ static enclosure power(enclosure u, double e) {
     return enclosure_power(whole || !(u.low < 0.0) ? u : (enclosure){0.0, u.high}, enclosure_of(e));
 }
 
-/* A function of u and its derivatives by u. */
 static jet derivatives_of(function_id function, enclosure u) {
     const enclosure one = enclosure_of(1.0);
     const enclosure f = enclosure_call(function, u, zero);
@@ -362,7 +361,7 @@ static void taylor_bounds_way(taylor_bounds *a, const double *from, const double
     a->glanced = false;
 }
 
-/* Encloses a function with the values a and b at its ends. `bend`: its largest distance from the line between them. */
+/* Encloses a curve from a to b that deviates from the chord by at most `bend`. */
 static enclosure between(double a, double b, double bend) {
     return (enclosure){enclosure_below(number_least(a, b) - bend),
                        enclosure_above(number_most(a, b) + bend)};
@@ -457,15 +456,14 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 #define HALVINGS 24    /* most halvings of a path */
 #define PARTS_MOST 400 /* most parts of a path that are tested for one contact or coordinate */
-/* TOUCH: a negative margin() counts as zero up to this part of the margin at an end, or of its change if that is less.
- * WIDTHS: it also counts as zero up to this many widths of its bounds. */
+/* A negative margin() counts as zero up to TOUCH * (margin at the ends) or WIDTHS * (round-off). */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration inside a path is hidden if it exceeds HIDDEN times the sum of the accelerations at both ends. It must
- * also be able to change the rate within the path by TURNS times the larger rate at the ends. */
+/* An acceleration inside a path is hidden if it exceeds two limits: HIDDEN * (sum of the accelerations at both ends),
+ * and TURNS * (larger rate at the ends) / (duration of the path). */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* A gap's slope jumps if its relative change within 2^-EDGE_HALVINGS of a path exceeds EDGE. */
+/* EDGE: least relative jump of a gap's slope. EDGE_HALVINGS: number of halvings that locate the jump. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 
@@ -552,7 +550,6 @@ static enclosure margin(const missed *m, int k, enclosure signal) {
     return is ? signal : enclosure_neg(signal);
 }
 
-/* A test of one result of a list on parts of the path. */
 typedef struct search search;
 struct search {
     int (*look)(const search *s, double low, double high); /* 1 found, 0 excluded, -1 undecided */
@@ -616,7 +613,6 @@ static int passes(search *s, double low, double high, int halvings) {
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
-/* A certain result replaces an undecided one. */
 static missed_found or_this(missed_found found, int passed, int what) {
     return passed > 0 || (passed < 0 && found.what < 0)
                ? (missed_found){.what = what, .sure = passed > 0}
@@ -685,7 +681,7 @@ static double force_that_matters(missed *m, int k, bool sticks) {
     return sticks ? most_load : TURNS * most_rate / (m->piece->span_s * most_turns);
 }
 
-/* Does the limit of friction k change inside the path so that the motion should differ? */
+/* Is the limit of friction k much smaller (if stuck) or larger (if sliding) inside the path than at the ends? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -736,7 +732,7 @@ static bool slope_jumps(missed *m, int k) {
     return some;
 }
 
-/* Also tests the straight path along the initial rates, because the core may have moved the body back to the face. */
+/* The core may move the body back to the stop's face. The path to `ahead` omits this move. */
 static missed_found edge_passed(missed *m) {
     const engine_piece *p = m->piece;
     const int n = m->image->coordinates;
@@ -772,7 +768,7 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* Finds a coordinate with a hidden acceleration on the path. An acceleration below DBL_MIN is underflow. */
+/* Finds a coordinate whose acceleration is much larger inside the path than at the ends. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;

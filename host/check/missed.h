@@ -25,7 +25,7 @@ typedef struct missed missed;
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
 typedef struct missed_found {
-    int what;  /* index of the contact, or contacts + index of the force's coordinate; -1: none */
+    int what;  /* contact k: k; force on coordinate i: (number of contacts) + i; -1: none */
     bool sure; /* false: undecided */
     bool edge; /* a resting body slid over an edge of its stop */
 } missed_found;

@@ -199,7 +199,6 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     return sine ? hint : hint_domain;
 }
 
-/* Looks at `count` questions from index `first` on. Reports the first whose number is not finite. */
 static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
     const image_diagnostics *b = &v->image->diagnostics;
     for (int i = first; i < first + count; i++) {

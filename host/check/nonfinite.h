@@ -1,5 +1,5 @@
-/* nonfinite.h: locates the expression of a scene that is not a finite number, for messages. After a failed step,
- * expressions are evaluated at the last good state, and at a few states ahead along its rates. */
+/* nonfinite.h: finds the expression of a scene whose value is not finite, for messages. After a failed step,
+ * expressions are evaluated at the last good state, and at states extrapolated from the last good state. */
 #ifndef CHECK_NONFINITE_H
 #define CHECK_NONFINITE_H
 
@@ -27,7 +27,7 @@ int blamed_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Largest argument of sine and cosine, rad (core/number/sine.h). Exception: in float, turn angles have no limit. */
+/* Largest argument of sine and cosine, rad (core/number/sine.h). Turn angles of a float run have no limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
@@ -37,7 +37,7 @@ typedef struct nonfinite_at {
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
     bool turns;              /* the run is in float: sines of turn angles have no limit */
-    double ahead_steps;      /* 0: searches only this state; 1: also states up to two steps later */
+    double ahead_steps;      /* also searches states up to 2 * ahead_steps steps later */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 

@@ -15,7 +15,7 @@
 enum { HALVINGS = 56 };  /* enough to locate a sign change on the path, down to round-off */
 #define FARTHER 2.5      /* if samples show only round-off, their distances grow by this factor */
 enum { TURNS_MOST = 4 }; /* an expression with at least this many sign changes is round-off */
-#define NEAR 0.2         /* sign changes are counted up to NEAR * (distance to the part's end) */
+#define NEAR 0.2         /* largest tested distance / (distance to the part's end) */
 #define FURTHER 1.4      /* ratio of successive distances at which the sign is tested */
 /* A value may touch zero if its tangents at the two ends cross below TOUCHES times the smaller end value. */
 #define TOUCHES 1e-3
@@ -37,7 +37,7 @@ typedef enum growth {
     GROWTH_POLE   /* steady, as at a pole */
 } growth;
 
-/* Least growth at a pole, from one distance to the next. 1/distance grows by 1.71; distance^(-9/10), by only 1.62. */
+/* Least growth at a pole, from one distance to the next; 1/distance grows by the factor 1.71. */
 #define GROWS 1.64
 #define EVEN 1.1 /* growth is steady if its ratios differ by less than this factor */
 
@@ -56,7 +56,7 @@ typedef struct looker {
     double *touch; /* [4 * signs] */
 } looker;
 
-/* How values grow towards a place: value[k * stride] is the one at distance k, and the largest distance comes first. */
+/* Growth of the values towards a place: the distance from the place decreases with k. */
 static growth growth_of(const double *value, int stride) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -183,7 +183,7 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
     return fabs(l->value[i]) > GROWTH_BEYOND;
 }
 
-/* A place on the path at which the value `of` changes its sign or may touch zero: perhaps a pole. */
+/* A possible pole: a place on the path at which a divisor changes its sign or may touch zero. */
 typedef struct spot {
     part in;
     double zero_at;
@@ -194,9 +194,9 @@ typedef struct spot {
 
 /* NEAREST: number of nearest samples. NINE_TIMES: index of a sample about 9 times as far away as the nearest one. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
-#define LEFT 0.05 /* relative tolerance of the value extrapolated to the place */
+#define LEFT 0.05 /* relative tolerance of the minimum in stands_off() */
 
-/* Does the value have a minimum above zero at the place? If so, it grows with the square of the distance. */
+/* Is the value's minimum at the place above zero? */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -331,11 +331,9 @@ int pole_on(const pole_way *w) {
 }
 
 /* === divisors ==================================================================================== */
-/* Finds the divisors that change their sign at a pole, and the expressions that may grow there.
- *
- * Divisors and bases of negative powers are split into factors. Solving (k + s)*s' = -v*s for the highest derivative s'
- * divides by k + s, so this divisor is tested, too. A divisor is not tested if it depends on a highest derivative, or
- * on a rate recovered from a momentum. */
+/* Finds the divisors of a scene, and the expressions that may grow at a zero of a divisor. Divisors and bases of
+ * negative powers are split into factors. A factor of a highest derivative also counts as a divisor: solving
+ * (k + s)*s' = -v*s for s' divides by k + s. */
 
 typedef struct divisor {
     int node;      /* index in image_diagnostics.node, or in the list IMAGE_BOOKS if `derived` */
@@ -480,7 +478,6 @@ static void find_order(denominators *d) {
     }
 }
 
-/* Collects the expressions that may grow: energies, losses, their derivatives, forces, equations, and frictions. */
 static void find_questions(denominators *d) {
     const image *im = d->at.image;
     d->asked = alloc(im->diagnostics.questions, sizeof *d->asked);
@@ -509,7 +506,7 @@ static bool has_factors_that_move(const denominators *d) {
     return false;
 }
 
-/* Adds the factors of all divisors in the list IMAGE_BOOKS. */
+/* Appends the factors of all divisors in the list IMAGE_BOOKS to d->divisor[]. */
 static void find_derived(denominators *d) {
     const op_list *t = d->at.image->list[IMAGE_BOOKS];
     bool *divides = alloc(t->count, sizeof *divides);
@@ -613,8 +610,7 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* Index in image_diagnostics.question of the expression with index `value` in pole_way.at(). For a slope, this is the
- * first question that contains the highest derivative of the same unknown. */
+/* Converts an index of value[] in pole_way.at() to an index of image_diagnostics.question. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {
@@ -631,7 +627,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* The smallest tested distance from a place changes a component by this share of its value. */
+/* At the smallest tested distance from a place, a component differs by this share from its value at the place. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {
@@ -645,7 +641,7 @@ struct pole_crossing {
     bool blind; /* the state before this step is unknown */
     uint64_t unseen;
     missed *contacts;
-    int found; /* index of the question with the pole, or -1 */
+    int found; /* index in image_diagnostics.question of the expression with the pole; -1: none */
     missed_found through;
     double found_s;
 };
@@ -682,7 +678,7 @@ void pole_crossing_close(pole_crossing *j) {
 /* Is the denominator tested in this step? A jump of rates at an impact passes no pole. */
 static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
 
-/* The change of this component in the step; for angles, which are modulo a turn, the shorter one. */
+/* The change of component i in the step; for an angle, at most half a turn. */
 static double way_of(const pole_crossing *j, int i) {
     const double way = j->to[i] - j->from[i];
     return i < j->image->angles ? number_centred(way, 6.283185307179586) : way;

@@ -33,13 +33,12 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j);
 /* === a pole on the way =========================================================================== */
 /* Finds a pole on the path from one state to the next.
  *
- * At a pole, a divisor changes its sign and an expression grows. Halving locates the sign change. Each expression is
- * sampled towards that place from both sides, at the smallest distances at which round-off does not hide its growth.
- * The place is a pole if an expression grows about as fast as 1/distance. It is no pole if all
- * grow more slowly, such as 1/sqrt(distance), which is integrable. Then the path on both sides is searched, too.
+ * At a pole, a divisor changes its sign, and an expression grows about as fast as 1/distance. Halving locates the sign
+ * change. Each expression is sampled on both sides, at the smallest distances at which round-off does not hide its
+ * growth. If all expressions grow more slowly, such as 1/sqrt(distance), the place is no pole, and the search goes on.
  *
- * A divisor that only touches zero, such as 1 - cos(q), does not change its sign. If its tangents at both ends of a
- * part of the path permit it to touch zero, golden sections find its least magnitude. This place is tested as above. */
+ * A divisor such as 1 - cos(q) touches zero without a change of sign. If its tangents at both ends of a part of the
+ * path permit a zero, golden sections find the least magnitude of the divisor. This place is tested for growth. */
 
 typedef struct pole_way {
     void *of;

@@ -149,7 +149,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     double own = 0.0;
-    double fastest = 0.0; /* the larger of `own` and the largest error of this rate */
+    double fastest = 0.0;
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
@@ -195,7 +195,7 @@ static bool is_sudden(const run_checks *v, int k, double until_s, double early_s
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* Returns the column that exceeds the tolerance first, at *until_s, or -1. `sudden`: searches sudden errors only. */
+/* Returns the column with the first error above the tolerance, or -1. Sets *until_s to the time of this error. */
 static int first_error(const run_checks *v, bool sudden, double *until_s) {
     const double tolerance = sudden ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE;
     const double early_tolerance =

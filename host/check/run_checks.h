@@ -13,9 +13,9 @@
 
 typedef struct finding {
     bool reported;
-    double value;  /* measured, in the unit of its finding_row */
-    double at_s;   /* when the problem occurs or begins, s; below 0: in the whole run */
-    int component; /* accuracy and aliased: the column; missed: its missed_found.what; else -1 */
+    double value; /* measured, in the unit of its finding_row */
+    double at_s;  /* when the problem occurs or begins, s; below 0: in the whole run */
+    int component; /* column (FINDING_ACCURACY, FINDING_ALIASED), missed_found.what (FINDING_MISSED), or -1 */
 } finding;
 
 typedef struct run_checks {
@@ -40,8 +40,8 @@ typedef struct run_checks {
     unsigned warned; /* the warnings, as bits */
 } run_checks;
 
-/* The checks use the budget `of`. If it is NULL, they use run_checks.own, and the caller must set loop.own to
- * &run_checks.own. All arguments must outlive the result. */
+/* If `of` is NULL, the checks use run_checks.own as their budget, and the caller must set loop.own to &run_checks.own.
+ * All arguments must outlive the result. */
 run_checks *run_checks_open(const image *im, const engine_kind *kind, void *run, budget *of);
 /* Makes a run to its end, or to an interrupt (host/os/system.h), with all checks at any cost. `progress` may be NULL;
  * it is called with the share of completed steps. run_checks_close() ends the run. */

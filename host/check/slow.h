@@ -1,8 +1,8 @@
 /* slow.h: detects components that move too slowly for the units to which they are rounded.
  *
- * A float turn angle is rounded to 2^-32 turn, 1.5e-9 rad. If it should move by less than half a unit per step, it
- * does not move; slightly above that, its rate is wrong. In fixed point all components are rounded to units of their
- * ranges. A component is slow if the summed round-off of its steps exceeds a few units, and SLOW_SHARE of its range. */
+ * A float turn angle is rounded to units of 2^-32 turn, 1.5e-9 rad. An angle that should move by less than half a unit
+ * per step does not move. The rate of a slightly faster angle is wrong. In fixed point, every component has a unit. A
+ * component is slow if the round-off of all its steps exceeds a few units, and SLOW_SHARE of its range. */
 #ifndef CHECK_SLOW_H
 #define CHECK_SLOW_H
 

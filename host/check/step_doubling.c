@@ -64,7 +64,7 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* Returns the variant whose lists differ most from the scene's near the start, or NULL if there are no variants. */
+/* Returns the variant whose results near the scene's start differ most from the scene's results, or NULL. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -313,7 +313,7 @@ static void take_places(step_doubling *t) {
 
 /* --- side by side ------------------------------------------------------------------------------------*/
 
-/* With contacts, ignores a difference found by one comparison only: the runs may differ in an event's step. */
+/* With contacts, a difference counts only if two successive comparisons find it. */
 static void look(step_doubling *t, double time_s) {
     const image *im = t->shape->image;
     const bool events = im->contacts > 0 && im->steps > 1U;
@@ -355,7 +355,7 @@ static bool step_finer(step_doubling *t) {
     return good;
 }
 
-/* Did the finer run fail because an angle left the sine's range? The angles of a float run wrap around instead. */
+/* Did the finer run fail because an angle left the range of double's sine? */
 static bool is_unwrapped(const step_doubling *t) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -367,7 +367,6 @@ static bool is_unwrapped(const step_doubling *t) {
     return found;
 }
 
-/* Has either run had a step with too many events? In such a step, stops may rest too early. */
 static bool has_overrun(const step_doubling *t) {
     uint64_t ours = 0;
     uint64_t finers = 0;

@@ -1,9 +1,8 @@
 /* step_doubling.h: the difference between a run and a finer run of the same scene, over time.
  *
- * The finer run has half the step. It uses double with compensated sums, and computes functions that the run looks up
- * in tables. Its method is the run's method if that has at least order 4, else RK4. So the difference contains all
- * errors of the run (those of step, round-off, tables and number format), and the smaller error of the finer run. With
- * --matrix exact, a step has no error; both runs have the same step, and the difference is round-off. */
+ * The finer run has half the step. It uses double with compensated sums, and no tables. Its method is the run's method
+ * if that has at least order 4, else RK4. The difference contains all errors of the run, and the smaller error of the
+ * finer run. With --matrix exact, both runs have the same step, and the difference is round-off. */
 #ifndef CHECK_STEP_DOUBLING_H
 #define CHECK_STEP_DOUBLING_H
 
@@ -36,8 +35,8 @@ double passages_until_s(const passages *p, double level);
 
 typedef struct step_doubling_column {
     double start;    /* first value of the finer run, in the column's unit */
-    double low;      /* least value up to cut_s: of the finer run; if `otherwise`, of the run */
-    double high;     /* largest such value */
+    double low;      /* least value up to cut_s */
+    double high;     /* largest value up to cut_s */
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
     bool has_rate;   /* the column's rate is a component of the state */

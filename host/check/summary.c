@@ -85,7 +85,7 @@ char *about_tables(const image *im) {
 
 /* === the opening sentence ===================================================================== */
 
-/* ROWS: most sampled rows of a run. NAMED: most coordinates that the sentence names. */
+/* ROWS: limit on the sampled rows of a run. NAMED: limit on the coordinates in the sentence. */
 enum { ROWS = 100000, NAMED = 3 };
 #define STAYS 1e-6
 
@@ -148,7 +148,7 @@ bool opening_moves(const opening *o, const records *r) {
 
 /* "x_cm stays at 0.6 m within 1.1e-09 m, y_cm at 0 m within 0.0e+00 m." Returns false if no output stays. */
 static bool print_staying(FILE *out, const opening *o, const records *r) {
-    double most = 0.0; /* the largest range of a length */
+    double most = 0.0;
     bool *marked = alloc(r->columns, sizeof *marked);
     int named = 0;
     for (int i = 1; i < r->columns; i++) {
@@ -203,7 +203,7 @@ static void print_ways(FILE *out, const opening *o, const records *r) {
     fputs(moving > 0 ? ".\n" : "Nothing moves.\n", out);
 }
 
-/* Prints "The momentum of x stays 0 kg*m/s within 5.9e-11. " for the first length with a conserved momentum. */
+/* Prints a sentence such as "The momentum of x stays 0 kg*m/s within 5.9e-11. " */
 static void print_momentum(FILE *out, const image *im, const books *b) {
     int found = -1;
     for (int i = 0; i < im->count && b != NULL; i++) {
