@@ -20,9 +20,8 @@ typedef struct choice_request {
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of RAM plus stack; 0: no limit */
-    bool
-        counts; /* chosen rows will be counted; an uncounted row's upper bounds may exceed limits */
-    const char *prices; /* the source of the prices, in words */
+    bool counts;         /* chosen rows will be counted; uncounted upper bounds may exceed limits */
+    const char *prices;  /* the source of the prices, in words */
 } choice_request;
 
 /* A row compared with the limits. */
