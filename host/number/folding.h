@@ -1,7 +1,7 @@
 /* folding.h: constant folding in derivations, with a record of the lost digits.
  *
  * A folded sum k1 + k2 is one double, so the smaller addend loses digits. The loss matters if a later sum cancels the
- * larger addend. No comparison of two runs shows the loss, because both runs use the folded sum. Two checks do:
+ * larger addend. No comparison of two runs shows the loss, because both runs use the sum. Two checks show the loss:
  *   - Each sum records its round-off, relative to the smallest of the addends and the result. A *residue* is a result
  *     that is only round-off, such as cos(90 deg). A residue is a loss if it exceeds 1e-12 (SI), is a divisor, or is a
  *     large part of a sum.
