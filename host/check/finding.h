@@ -58,7 +58,7 @@ extern const finding_row finding_rows[FINDINGS];
 /* FINDING_ENERGY: limit of |residual| / largest_J before the run's end. A smaller ratio is invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
 /* FINDING_EVENTS exempts the last bounces before a rest. RUN_CHECKS_RESTS: largest sum of |energy changes|, as a
- * part of largest_J. RUN_CHECKS_RESTS_STEPS: largest number of steps with too many events, as a part of all steps. */
+ * part of largest_J. RUN_CHECKS_RESTS_STEPS: largest (steps with too many events - 1) / (steps of the run). */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

@@ -15,7 +15,7 @@
 enum { HALVINGS = 56 };  /* enough to locate a sign change on the path, down to round-off */
 #define FARTHER 2.5      /* if samples show only round-off, their distances grow by this factor */
 enum { TURNS_MOST = 4 }; /* an expression with at least this many sign changes is round-off */
-#define NEAR 0.2         /* largest tested distance / (distance to the part's end) */
+#define NEAR 0.2         /* sign tests: largest distance / (distance to the part's end) */
 #define FURTHER 1.4      /* ratio of successive distances at which the sign is tested */
 /* A value may touch zero if its tangents at the two ends cross below TOUCHES times the smaller end value. */
 #define TOUCHES 1e-3
