@@ -48,7 +48,7 @@ const cost_board *cost_board_named(const char *name) {
 /* Lists of at most this many operations are inlined (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
 enum { REGISTERS = 16 };   /* number of state and stage values that FPU registers hold */
-enum { SUMS_CARRIED = 9 }; /* extra additions for each of im->reals if sums are compensated */
+enum { SUMS_CARRIED = 9 }; /* extra additions for each of im->reals in a compensated matrix step */
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
     c->run[class] += run;

@@ -203,7 +203,7 @@ static bool moves(const reference *r) {
 
 /* --- the steps ---------------------------------------------------------------------------------------*/
 
-/* Returns an even number of steps between two records, at most what w->operations allows. */
+/* Returns an even number of steps between two records: at least 2, and limited by w->operations. */
 static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =
