@@ -189,9 +189,27 @@ static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
 }
 
+/* Returns true if q is only in angles of sines and cosines, and linear there. The second derivative of another poly may
+ * exceed the limits of the algebra. */
+static bool is_wave(algebra *a, const poly *p, const symbol *q) {
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        double slope;
+        if (m->angle != NULL && !poly_is_number(poly_derivative(a, m->angle, q, 0), &slope)) {
+            return false;
+        }
+        for (int j = 0; j < m->count; j++) {
+            if (poly_contains(poly_of_atom(a, m->factors[j].atom, 1.0), q, 0)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
-    const poly *bent = bend(a, p, q);
-    if (poly_is_zero(p) || bent->count != p->count) {
+    const poly *bent = is_wave(a, p, q) ? bend(a, p, q) : p;
+    if (bent == p || bent->count != p->count) {
         return 0.0;
     }
     const double squared = -bent->terms[0].coefficient / p->terms[0].coefficient;
@@ -268,7 +286,7 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
         return false;
     }
     const double c = shared_frequency(a, n, mass, gone, k, turning);
-    if (c == 0.0) {
+    if (c == 0.0 || !is_wave(a, force[k], turning)) {
         return false;
     }
     const poly *waving = poly_scale(a, bend(a, force[k], turning), -1.0 / (c * c));

@@ -344,6 +344,30 @@ TEST(solving, any_regular_system_is_solved) {
     }
 }
 
+/* A force that contains the angle of a hinge inside functions is no sinusoid of this angle. Its second derivative may
+ * exceed the limits of the algebra, so the solver must not ask for it. */
+TEST(solving, functions_of_a_hinge_angle) {
+    static const char *const function[] = {"sin", "cos", "tan", "exp", "atan"};
+    uint64_t seed = 44;
+    int checked = 0;
+    for (int round = 0; round < 40; round++) {
+        const char *f[6];
+        for (int i = 0; i < 6; i++) {
+            f[i] = function[random_one_of(&seed, 5)];
+        }
+        char text[512];
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
+                 "T = 1 [kg]*((x' + 1 [m]*a'*cos(a))^2 + (1 [m]*a'*sin(a))^2 + x'^2)/2\n"
+                 "V = 1 [J]*atan2(x/1 [m] + 4, 2 + %s(%s(%s(sin(a)))*%s(%s(%s(sin(%u*a))))))\n",
+                 f[0], f[1], f[2], f[3], f[4], f[5], 1U + (unsigned)round % 3U);
+        derived d = derived_surely(derived_text(text), text);
+        checked += check_solution(&d, &seed, text);
+        derived_free(&d);
+    }
+    TEST_ASSERT_GREATER_THAN_INT(100, checked);
+}
+
 TEST(solving, long_products_keep_their_value) {
     uint64_t seed = 43;
     for (int factors = 20; factors <= 40; factors++) {
