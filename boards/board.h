@@ -31,8 +31,8 @@ extern const uint32_t board_ticks_per_s;
 /* Waits until board_ticks() reaches `ticks`, less than 2^31 ticks from now. Returns at once if `ticks` has passed. */
 void board_wait_until(uint32_t ticks);
 
-/* Opens the console for input (hal_console_read()); on the PC a pseudo-terminal, whose name it prints. If that fails,
- * prints the reason and returns false. */
+/* Opens the console for input (hal_console_read()). On the PC, opens a pseudo-terminal and prints its name. If the
+ * console cannot be opened, prints the reason and returns false. */
 bool board_converse(void);
 
 /* The cycle counter (DWT's CYCCNT) of a real Cortex-M3, M4, M7 or M33. It wraps at 2^32. board_cycles_start() switches
@@ -40,7 +40,7 @@ bool board_converse(void);
 bool board_cycles_start(void);
 uint32_t board_cycles(void);
 
-/* Returns the chip's identity, or 0: DBGMCU_IDCODE on the STM32F405, CPUID on other Cortex-M. */
+/* Returns the chip's identity: DBGMCU_IDCODE on the STM32F405, CPUID on other Cortex-M, 0 on other chips. */
 uint32_t board_chip(void);
 
 /* The start-up code and board_stack_paint() fill the unused part of the stack with a pattern. board_stack_used_bytes()

@@ -55,8 +55,8 @@
 /* Maximum number of probes for a stop that a body enters and leaves within one trial step. */
 #define WH_DIP_PROBES 6U
 
-/* Stops and holds are projected twice if the slip of any contact exceeds this fraction of the way that its expression
- * moves in the step. On a curved contact, one projection leaves an error of second order in the slip. */
+/* Stops and holds are projected again if the first projection changes any contact's expression by more than this
+ * fraction of the expression's change in the step. On a curved contact, one projection has an error of second order. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
 /* Maximum number of projections onto the stops and holds after a step with too many events. */
@@ -65,7 +65,7 @@
 /* Maximum number of projections of a body that is beyond a stop when a step begins. A curved gap needs several. */
 #define WH_PUSH_LOOKS 12U
 
-/* A stop comes to rest if its next flight would be shorter than this share of a step. */
+/* A body that hits a stop comes to rest if the next flight would be shorter than this fraction of a step. */
 #define WH_REST_SHARE WH_R(0.125)
 
 enum {
@@ -104,28 +104,22 @@ typedef struct wh_contact {
 
 /* Layout of the numbers that `forces` gives for contact k: first these, then J_k[n], then (M^-1 J_k^T)[n]. */
 enum {
-    WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: expression */
+    /* stop: restitution; friction: mu_static * max(N, 0); curved hold: the held expression */
+    WH_LAW_FIRST,
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
     WH_LAW_BIAS,   /* J_k' q' */
     WH_LAW_ROWS    /* index of J_k[0] */
 };
 
-/* Maximum number of evaluations of the accelerations in one step. Each evaluates `forces` at most once.
- *
- * Each of WH_EVENTS_MAX rounds has:
- * - two trial steps, to the step's end and to the event. Each has `stages` evaluations, up to three for projections of
- *   the slip, and one at its end.
- * - a search: one evaluation at its begin and one at each probe.
- * - events: two for an impact, one for a capture, three for assignments, n + 1 for n released contacts.
- * Once in a step: the last trial step, its projections, settling the modes, and coordinates that follow inputs. */
+/* Maximum number of evaluations of the accelerations in one step. Each evaluation of the accelerations evaluates
+ * `forces` at most once. A step has up to WH_EVENTS_MAX rounds. A round has two trial steps with `stages` evaluations
+ * each, a search with WH_PROBES probes, and the events. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Maximum number of evaluations of `signals` in one step. Each evaluation of the accelerations has one, except those at
- * the stages and at the two ends of a search. Others: one at the begin of the step and of each trial step, one for a
- * capture, two for a crossing, and two if crossings may turn back. */
+/* Maximum number of evaluations of `signals` in one step. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 

@@ -21,8 +21,7 @@ void board_guard_stack(void) {
     REGISTER(MPU_MAIR0) = 0x44U; /* attribute 0: normal memory, not cached */
     REGISTER(MPU_RNR) = 0;
     REGISTER(MPU_RBAR) = strip | read_only_privileged | no_execute;
-    REGISTER(MPU_RLAR) =
-        ((strip + BOARD_STRIP_BYTES - 1U) & ~31U) | 1U; /* last 32 bytes; attribute 0; enabled */
+    REGISTER(MPU_RLAR) = ((strip + BOARD_STRIP_BYTES - 1U) & ~31U) | 1U; /* 1: enabled */
     /* The default map applies outside the region, and in hard-fault and NMI handlers. */
     REGISTER(MPU_CTRL) = 1U << 2 | 1U;
     __asm__ volatile("dsb\n\tisb" ::: "memory");

@@ -64,8 +64,8 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 
 uint32_t atmega_ticks_of(atmega_instant at);
 
-/* Starts the watchdog. It resets the chip after 2048 clocks of its own oscillator, doubled `twice` times (DS 12.5.2).
- * The chip requires the second store to WDTCSR within four clocks of the first. */
+/* Starts the watchdog with a timeout of 2048 << twice clocks of the watchdog's oscillator (DS 12.5.2). The second store
+ * to WDTCSR must follow the first store within four clocks. */
 static inline void atmega_watch(uint8_t twice) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
     const uint8_t settings =

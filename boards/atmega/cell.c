@@ -1,8 +1,8 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us. A period of 8 ms has sixteen conversions of the cell, then 24 of the
- * supply. A sample is the mean of the sixteen. Its time stamp is their middle. If a force rotates at 6 Hz, averaging
- * makes it 0.06 % too small. One count of the converter is 0.434 N. A constant force has a round-off of up to 0.22 N.
+ * Timer 2 starts a conversion every 200 us. In a period of 8 ms, 16 conversions of the cell precede 24 conversions of
+ * the supply. A sample is the mean of the 16 conversions. The time stamp of a sample is the middle of the 16
+ * conversions. One count of the converter is 0.434 N.
  *
  * The reference is the chip's supply. Without force, the amplifier's output is half of the reference. If a wire is
  * broken, a resistor pulls the pin to ground. */
@@ -85,7 +85,7 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* Stores a sample. In TIMER2_COMPA, this would save more registers at every tick. TCNT2 is 0 at a tick. */
+/* Stores a sample. A separate interrupt for samples keeps TIMER2_COMPA short. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);

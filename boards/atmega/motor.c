@@ -14,9 +14,7 @@ _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 static volatile bool driving; /* an interrupt may clear it, too */
 static uint16_t carried;      /* rounding error for the next control step, in parts */
 
-/* Sets timer 1 to duty 0, with OC1A low and disconnected. OC1A may be high before, so the pin is an input until then.
- * In PWM modes, FOC1A would not change OC1A (DS 17.7.1, 17.8), and OCR1A would not take effect at once. ICR1 is
- * writable only in modes that use it as TOP (DS 17.6). */
+/* Sets timer 1 to duty 0. The order of the stores keeps the pin's output low (DS 17.6, 17.7.1, 17.8). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;

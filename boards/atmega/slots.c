@@ -56,7 +56,7 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* True if the edge that the timer waits for has passed without a capture: the pin has the level after the edge. */
+/* True if the edge that the timer waits for has passed without a capture. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;

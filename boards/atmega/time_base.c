@@ -1,5 +1,5 @@
-/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz, extended to 32 bits at 1 MHz. Both start at the same
- * instant (DS 18.2: their prescaler is stopped), so their captures have the same time base. */
+/* time_base.c: a time of 32 bits in microseconds, from timers 4 and 5, which count at 2 MHz. The two timers start
+ * together (DS 18.2), so the captures of the two timers have one time base. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -34,7 +34,7 @@ void atmega_time_base_start(void) {
 uint32_t atmega_ticks(void) {
     const uint16_t now = TCNT4;
     uint32_t base = base_ticks;
-    /* the wrap is not counted yet */
+    /* true if TIMER4_OVF has not counted the last wrap yet */
     if ((TIFR4 & _BV(TOV4)) != 0 && now < 0x8000U) {
         base += TICKS_PER_WRAP;
     }
@@ -54,7 +54,7 @@ uint32_t atmega_ticks_of(atmega_instant at) {
     const uint32_t base = base_ticks;
     const uint8_t wraps = atmega_wraps;
     atmega_go_on(before);
-    const int8_t ago = (int8_t)(wraps - at.wraps); /* -1: `at` is after an uncounted wrap */
+    const int8_t ago = (int8_t)(wraps - at.wraps); /* may be -1: at.wraps can be ahead by one */
     return base - (uint32_t)((int32_t)ago * (int32_t)TICKS_PER_WRAP) +
            at.count / ATMEGA_COUNTS_PER_TICK;
 }

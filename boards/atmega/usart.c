@@ -92,7 +92,7 @@ void hal_console_write(const char *bytes, unsigned count) {
         atmega_usart_start();
     }
     const uint8_t before = atmega_hold();
-    for (; out_tail != out_head; out_tail++) { /* bytes that were queued before go out first */
+    for (; out_tail != out_head; out_tail++) { /* sends the queued bytes first */
         send(out[out_tail % OUT_BYTES]);
     }
     for (unsigned i = 0; i < count; i++) {

@@ -1,12 +1,12 @@
-/* watchdog.c: the chip's watchdog (DS 12.4) resets the chip; the pins then float, so the drive is off. A reset comes
- * after 1 to 2.7 times the timeout, because the oscillator's error is 15 % and the periods double from 14 ms to 8 s. */
+/* watchdog.c: the chip's watchdog (DS 12.4). After a reset the pins float, so the drive is off. If the timeout is 14 ms
+ * to 7 s, the reset comes after 1 to 2.7 times the timeout. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
 #define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks of the fastest oscillator, 13.9 ms */
-#define LONGEST 9U                     /* largest number of doublings: about 8 s */
+#define LONGEST 9U                     /* largest number of doublings */
 
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint8_t twice = 0;

@@ -29,9 +29,9 @@ void uart_write(const char *bytes, unsigned count);
 /* Starts the free-running clock. */
 void timer_start(void);
 
-/* Exceptions of the core, X(exception, NAME). BOARD_VECTOR_ROWS (board_data.h) lists the interrupts of the chip's
- * drivers, X(interrupt, NAME). A program may handle each by a function on_NAME(); without this function it is a fault.
- * The four fault exceptions are not listed, because the motor must be off before any other code runs. */
+/* Exceptions of the core, X(exception, NAME). BOARD_VECTOR_ROWS (board_data.h) lists the drivers' interrupts,
+ * X(interrupt, NAME). If a program has a function on_NAME(), the function handles NAME; otherwise board_fault() does.
+ * The four fault exceptions always run board_fault(), which first switches the outputs off. */
 #define CORTEXM_VECTOR_ROWS(X) \
     X(2, nmi) \
     X(11, svcall) \

@@ -27,7 +27,7 @@ static void enable_fpu(void) {
 #endif
 }
 
-/* Sets the address of the vector table, because a loader in ROM may have set that of its own table. */
+/* A loader in ROM may have set the address of another vector table. */
 static void take_vectors(void) {
 #if __ARM_ARCH >= 7
     REGISTER(SCB_VTOR) = (uint32_t)(uintptr_t)vectors;

@@ -1,5 +1,5 @@
-/* Adafruit Feather STM32F405 Express with a 12 MHz crystal. Pins on its headers: console D6 (out) and D5 (in), PWM SCK,
- * enable MISO, stop and driver's fault A2, slot sensors A1 and RX, load cell A4, supply A5. */
+/* Adafruit Feather STM32F405 Express with a 12 MHz crystal. Pins of the headers: D6: console output. D5: console input.
+ * SCK: PWM. MISO: enable. A2: stop, driver's fault. A1, RX: slot sensors. A4: load cell. A5: supply. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 

@@ -43,7 +43,7 @@ bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsign
     return put(slot, at, bytes, count);
 }
 
-/* A missing or shorter file counts as erased. */
+/* A byte that the file lacks reads as erased (0xFF). */
 bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     memset(bytes, 0xFF, count);
     const int file = open(name_of_file(), O_RDONLY);

@@ -1,5 +1,5 @@
-/* Netduino Plus 2: STM32F405RG with a 25 MHz crystal. Pins on its headers: console D1 (out) and D0 (in), PWM D13,
- * enable D12, stop and driver's fault D9, slot sensors D8 and D3, load cell A0, supply A1. */
+/* Netduino Plus 2: STM32F405RG with a 25 MHz crystal. Pins of the headers: D1: console output. D0: console input.
+ * D13: PWM. D12: enable. D9: stop, driver's fault. D8, D3: slot sensors. A0: load cell. A1: supply. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 

@@ -1,14 +1,14 @@
 /* bench.c: counts the instructions of single steps of every generated scene, on a board under the counting plugin or on
- * the PC under callgrind (count_rows.sh). The program only prints the meaning of the counted intervals:
+ * the PC under callgrind (count_rows.sh). The program prints the meaning of the counted intervals:
  *
- *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST have one step each, or, if METHOD ends in "-multistep",
- *                                            STEPS_A_CALL steps
- *     stack NAME BYTES                       deepest stack of the program during those steps
- *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the processor counts them itself (board.h)
+ *     count NAME METHOD NUMBER FIRST LAST    each of the intervals FIRST to LAST has one step
+ *     stack NAME BYTES                       deepest stack of the program during the counted steps
+ *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the board has a cycle counter (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
- * BENCH_SMALL=1 omits wh_exp() and other functions, and the cycles, for small memories. Interval 0 is empty.
- * On a board an interval includes the call (arguments and branch); callgrind counts the called function alone. */
+ * If METHOD ends in "-multistep", each interval has STEPS_A_CALL steps. Interval 0 is empty. For small memories,
+ * BENCH_SMALL=1 omits all functions except wh_sincos(), and the lines "silicon". On a board, an interval includes the
+ * call; callgrind counts only the called function. */
 #include "boards/programs/counted.h"
 #include "boards/programs/step_cycles.h"
 #include "core/function.h"
@@ -140,7 +140,6 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-/* Counts calls that do many steps of a scene (multi_step.h). */
 static wh_status count_multi_step(const wh_scene *scene, wh_state *state) {
     const unsigned first = intervals;
     wh_status status = WH_OK;

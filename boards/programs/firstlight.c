@@ -1,6 +1,6 @@
-/* firstlight.c: first light of a board: five scenes to their end, two seconds of the rig's control loop at rest, and
- * the console's self-test. Prints all results as one record (docs/firstlight.md). Real hardware prints it again after
- * each line end received. The motor stays off: the image does not call hal_motor_start() (boards/check_image.sh). */
+/* firstlight.c: first test of a board: five scenes, the rig's control loop at rest, and the console's self-test. Prints
+ * the results as one record (docs/firstlight.md). Real hardware repeats the record after each received line end. The
+ * motor stays off: the image does not call hal_motor_start() (boards/check_image.sh). */
 #define LINE_BYTES 200U /* the compiler's version and the self-test's answer are long */
 #include "core/light_fields.h"
 

@@ -19,7 +19,7 @@
 #include "rig_own.h"
 #include "trip_memory.h"
 
-/* 1: a model simulates the rig's hardware (hal/virtual); 0: another HAL, of a real board or of frames. */
+/* 1: hal/virtual simulates the rig's hardware. 0: real hardware, or hal/frames if HAL_FRAMES is 1. */
 #ifndef HAL_VIRTUAL
 #define HAL_VIRTUAL 1
 #endif
@@ -51,8 +51,7 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, the same as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* Largest numbers of samples that a step takes if it has no pulse, and if it has one. Other samples wait for the next
- * step. A small chip's build may set smaller numbers. */
+/* Largest number of samples that a step takes without a pulse, and with a pulse. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
 #endif
@@ -72,7 +71,7 @@ static bool drives;              /* true if the last command drove the motor (ob
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* A step takes at most two edges, and none after a leading edge (a pulse): a storm of edges must not delay it. */
+    /* A step takes at most two edges, so a storm of edges cannot delay the step. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;

@@ -82,7 +82,6 @@ static inline void put_turns(const wh_run *run) {
     put_value("  fastest minus slowest turn", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
-/* Prints a run's measurement. Compares its force with the formula's (sum of m r w^2) at the nominal speed. */
 static inline void put_result(const wh_rig_config *config, const wh_rig_result *result,
                               float nominal_radps) {
     const float formula_N = config->measure.rotor.unbalance_kgm * nominal_radps * nominal_radps;
@@ -123,7 +122,6 @@ static inline void put_place(const char *name, const wh_swung *swung, unsigned s
     put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
 }
 
-/* If the run ended in a free swing, prints its outcome, and the sensors' positions if it has shown them. */
 static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;
@@ -137,7 +135,6 @@ static inline void put_swung(const wh_swung *swung) {
     }
 }
 
-/* Prints the carriage's values, and the amplitude that the formula S/(M + m) gives. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;

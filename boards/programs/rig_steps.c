@@ -1,7 +1,7 @@
 /* rig_steps.c: the cost of each control step (rig_control.h) of several runs on the virtual rig. A step's interval has
  * only the controller's work between readings and outputs. Interval 0 is empty. Prints
  *
- *     run NAME FIRST LAST TURNS QUALITY    a run's first and last interval; turns and quality of its force */
+ *     run NAME FIRST LAST TURNS QUALITY    first and last interval of a run; turns and quality of the measurement */
 #include "boards/programs/counted.h"
 
 static void begin_step(void);
@@ -14,7 +14,7 @@ static void begin_step(void);
 static wh_rig_config config;
 static unsigned intervals = 1;
 
-/* A run. Its pulses and samples are lost after 250 steps of the record. */
+/* A run. After 250 recorded steps, the virtual rig loses lose_pulses[] pulses and lose_samples samples. */
 typedef struct trial {
     const char *name;
     float target_rpm;

@@ -37,7 +37,7 @@ static void tell_reset(void) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
         put("\r\n"
-            "# reset: "); /* first ends a line that the reset has cut */
+            "# reset: "); /* The line end comes first, because the reset may have cut a line. */
         hal_console_write(words, count);
         put("\r\n");
     }

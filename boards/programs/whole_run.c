@@ -5,8 +5,8 @@
  *     stack NAME BYTES     deepest stack of the program during the run's steps
  *     failed NAME STATUS   a step failed
  *
- * The counter reports each RUN_EVERY steps as one interval with the instructions of the largest step (count_plugin.c,
- * every=). Before them, interval 0 has RUN_EVERY empty measurements. */
+ * The counter reports the largest number of instructions of a step in each interval of RUN_EVERY steps (count_plugin.c,
+ * every=). Interval 0 is empty. */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 

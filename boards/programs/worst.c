@@ -1,9 +1,8 @@
 /* worst.c: the largest number of instructions of a step over random states, for each scene with contacts.
  *
- * The scene makes WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps the state is randomized: angles are
- * arbitrary, rates are multiplied by -2 to 2, and positions move by at most eight steps. Inputs become -4 to 4 times
- * their start value, and the contacts' modes are determined again. The counter reports the largest number for each
- * scene and seed (count_plugin.c, every=WORST_STEPS). Prints the lines "count" of bench.c and, before those of a scene,
+ * Each scene makes WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps, the state and the inputs become
+ * random. The counter reports one number for each scene and seed (count_plugin.c, every=WORST_STEPS). Prints for each
+ * scene one line "declared", and the lines "count" of bench.c:
  *
  *     declared NAME EVALUATIONS SIGNALS    declared limits of evaluations in one step (contact.h) */
 #include "boards/programs/counted.h"
@@ -58,7 +57,7 @@ static void throw_state(const wh_scene *scene, wh_state *state) {
 
 static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
     wh_state state;
-    seed = first_seed * 2654435761U; /* makes the sequences of near seeds differ from the start */
+    seed = first_seed * 2654435761U; /* near seeds give unlike sequences */
     for (unsigned i = 0; i < WORST_STEPS; i++) {
         if (i % 8192U == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
             return false;

@@ -6,7 +6,7 @@
 void board_entry(void);
 _Noreturn void board_reset(void);
 
-/* The first code in flash. norelax: relaxed code uses gp, which is never set. tail: a plain jump reaches only 1 MB. */
+/* The first code in flash. norelax is necessary, because gp is never set. */
 __attribute__((naked, used, section(".vectors"))) void board_entry(void) {
     __asm__ volatile(".option norelax\n\t"
                      "la sp, board_stack_top\n\t"

@@ -26,7 +26,7 @@ float FROM_UNSIGNED(uint64_t number) {
     if (high == 0) {
         return (float)(uint32_t)number;
     }
-    /* A float keeps 24 bits, so 32 bits from the highest 1 suffice. The rest only decides ties: one bit replaces it. */
+    /* The bits below the highest 32 only decide ties, so one bit replaces them. */
     const unsigned shift = 32U - (unsigned)__builtin_clz(high);
     const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
     const uint32_t lost = below != 0 ? 1U : 0U;

@@ -18,7 +18,7 @@ static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
 static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
 #endif
 
-extern uint32_t board_stack_guard[]; /* the guard strip, BOARD_STRIP_BYTES below the stack */
+extern uint32_t board_stack_guard[]; /* lowest word of the guard strip */
 extern uint32_t board_stack_limit[]; /* lowest word of the stack */
 extern uint32_t board_stack_top[];   /* one past the highest word of the stack */
 extern uint32_t board_fault_stack_top[];

@@ -1,14 +1,12 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
- * Timer 3 starts 32,000 pairs of conversions per second: first the load, then the supply. DMA stores the pairs, and
- * interrupts after every 64 (2 ms), which fill half of its memory. A sample is the mean of the 64 loads. Its time stamp
- * is their middle, so it has no delay. A sample waits for the next mean, because the correction of a mean needs both
- * neighbours (hal/averaged.h). One count of the converter is 109 mN. With noise of half a count the mean resolves
- * 1.7 mN; the unit of a sample is 6.8 mN.
+ * Timer 3 starts 32,000 pairs of conversions per second: first the load, then the supply. DMA interrupts after every 64
+ * pairs (2 ms). A sample is the mean of 64 loads, with the middle of the 64 conversions as its time stamp. A sample
+ * waits for the next mean, because the correction of a mean needs the means before and after (hal/averaged.h). One
+ * count of the converter is 109 mN; the unit of a sample is 6.8 mN.
  *
- * Without force, the amplifier's output is half of the reference. The amplifier is saturated within RAIL of 0 and of
- * FULL. If a wire is broken, a resistor pulls the pin down, and the mean is below OPEN_BELOW. It is not 0, because of
- * leakage and of charge from the supply's conversion. */
+ * Without force, the amplifier's output is half of the reference. If a wire is broken, a resistor pulls the pin down,
+ * and the mean is below OPEN_BELOW. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -23,8 +21,7 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* Time from the middle of a mean to its interrupt. From the first to the last of 64 pairs are 63 periods, so the middle
- * is 31.5 periods before the last pair. The last pair takes 9 us, and its load is sampled after 4 us: 5 us more. */
+/* Time from the middle of 64 loads to the interrupt: 31.5 periods, and 5 us from the last load to the interrupt. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* highest clock of the converter (STM32F405's data sheet, table 67) */
@@ -114,7 +111,7 @@ static bool follows(const hal_load_sample *before, const hal_load_sample *sample
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* Corrects the mean `last` with the means before and after it (`mean`), delivers it, and sets `last` to `mean`. */
+/* Delivers `last`, corrected with `before_last` and `mean`. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {

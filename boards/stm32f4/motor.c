@@ -1,12 +1,12 @@
-/* motor.c: the drive stage. TIM1's channel 1 is a PWM of 20 kHz. It uses only the complementary output (RM0090,
- * 17.3 and table 94). Another pin enables the stage. The break input receives both stop and the drive stage's fault.
+/* motor.c: the drive stage. The complementary output of TIM1's channel 1 is a PWM of 20 kHz (RM0090, 17.3, table 94).
+ * Another pin enables the stage. The break input receives the stop signal and the stage's fault signal.
  *
- * The break input is active low, with a pull-down: a broken wire counts as pressed. A break, or a stopped crystal,
- * clears MOE without software: the output then has its idle level, low. MOE cannot be set while the break is active. A
- * lock-up of the core does not clear MOE on this chip; the watchdog then resets the chip.
+ * The break input is active low, with a pull-down: a broken wire is a break. A break or a stopped crystal clears MOE
+ * without software, so the output goes low. MOE cannot be set while the break is active. A lock-up of the core does not
+ * clear MOE; the watchdog then resets the chip.
  *
- * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families then disable the outputs, but for
- * the F4 this is not proved: an output could stay high. So the watchdog keeps running in a halt. */
+ * If a debugger halts the core, TIM1's counter stops (DBG_TIM1_STOP), and an output could stay high. So the watchdog
+ * keeps running in a halt. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -57,7 +57,7 @@ unsigned hal_motor_start(void) {
     /* a hal_motor_off() in an interrupt waits until stm32f4_go_on() */
     const uint32_t before = stm32f4_hold();
     if (!driving) {
-        driving = true; /* if stop prevents MOE, is_cut() is true */
+        driving = true;
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);

@@ -6,7 +6,7 @@ void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t valu
     reg_change(first + at / 32U * 4U, ((1U << bits) - 1U) << at % 32U, value << at % 32U);
 }
 
-/* An output begins low, because its level is set while the pin is still an input. */
+/* An output begins low. */
 void stm32f4_pin_is(unsigned pin, unsigned what) {
     const unsigned port = pin / 16U;
     const unsigned number = pin % 16U;

@@ -9,8 +9,7 @@
 static hal_reset cause;
 static board_fault_record fault;
 
-/* The reset pin's flag distinguishes nothing, because every start sets it. If no flag is set, as in an emulator, the
- * start was a power-on unless valid data from before exist. */
+/* Every start sets the reset pin's flag, so this flag shows no cause. In an emulator, no flag is set. */
 static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
     if ((flags & (RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF)) != 0) {
         return HAL_RESET_WATCHDOG;

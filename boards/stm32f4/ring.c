@@ -7,7 +7,7 @@ static uint8_t *place_of(const stm32f4_ring *ring, uint32_t count) {
     return (uint8_t *)ring->records + (count & (ring->kept - 1U)) * ring->bytes;
 }
 
-/* The fences keep the copy between the reading of the counts and their update. */
+/* The fences keep the compiler from moving the copy across accesses to the counts. */
 static void copy(void *to, const void *from, unsigned bytes) {
     atomic_signal_fence(memory_order_seq_cst);
     __builtin_memcpy(to, from, bytes);

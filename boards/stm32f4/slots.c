@@ -19,7 +19,7 @@ static stm32f4_ring_counts edge_counts;
 static const stm32f4_ring edges = {&edge_counts, kept_edges, EDGES_KEPT, sizeof *kept_edges};
 static volatile uint32_t overruns;
 
-/* If the ring is full afterwards, counts an overrun and returns false. The capture pauses until an edge is taken. */
+/* Stores an edge. If the ring is full after the store, counts an overrun and returns false. */
 static bool keep_edge(const hal_slot_edge *edge) {
     if (stm32f4_ring_put(&edges, edge) && stm32f4_ring_has_room(&edges)) {
         return true;
@@ -56,7 +56,7 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(TIM2_IRQ);
 }
 
-/* Stores captures in the order of their times. Reading a capture clears its flag; a second flag shows an overrun. */
+/* Stores the captured edges in the order of their times. */
 void on_tim2(void) {
     const uint32_t status = reg_load(TIM_SR(TIM2));
     hal_slot_edge seen[4];

@@ -17,7 +17,7 @@ typedef struct stm32f4_clocks {
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
-/* Number of a peripheral: the index of its bit in the clock enable registers. The ports come first. */
+/* Number of a peripheral: the index of its bit in the clock enable registers. Port A has number 0. */
 #define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
 
 /* Enables the peripheral's clock, which runs when the call returns (RM0090, 7.3.14; ES0182, 2.1.13). */

@@ -103,7 +103,7 @@ void uart_write(const char *bytes, unsigned count) {
     const uint32_t before = stm32f4_hold();
     for (;;) {
         char byte;
-        if (!stm32f4_ring_take(&out, &byte)) { /* bytes that were queued before go out first */
+        if (!stm32f4_ring_take(&out, &byte)) { /* the queue is empty */
             if (count-- == 0) {
                 break;
             }

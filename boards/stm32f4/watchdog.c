@@ -10,8 +10,7 @@
 #define LONGEST 4095U
 #define DIVIDERS 7U /* dividers 4, 8, ... 256 */
 
-/* Converts ticks to clocks of the fastest oscillator, rounded up. Two products of 32 bits replace one of 64 bits, whose
- * division would need 750 bytes of flash. */
+/* Converts ticks to clocks of the fastest oscillator, rounded up. A 64-bit division would need 750 bytes of flash. */
 static uint32_t clocks_in(uint32_t ticks) {
     const uint32_t rest = FASTEST_KHZ * (ticks % TICKS_PER_MS);
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;

@@ -4,9 +4,8 @@
 
 #include "contact_resolve.h"
 
-/* Finds the contacts that act at the start of a run, before impacts and captures. As bits, *still gets the contacts at
- * rest, and *moving gets the stops that close and the holds that move. A stop in `pushed` (bits) counts as touching.
- * work->law must belong to `s`. */
+/* Finds the touching stops and the holds with a true condition. *still gets the contacts at rest, *moving the closing
+ * stops and the holds in motion, as bits. Stops in `pushed` (bits) count as touching. work->law must belong to `s`. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,
@@ -34,10 +33,9 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
     }
 }
 
-/* Sets the modes at the start of a run and after wh_scene_set_real(). A body beyond a stop is first moved back onto it.
- * Then contacts at rest may become active, closing stops are hit and moving holds capture. *hit gets the closing stops
- * and moving holds, as bits; impulse[forced] gets their impulses. Returns 0 to 2: the moments that count towards
- * WH_EVENTS_MAX. */
+/* Sets the modes at the start of a run and after wh_scene_set_real(), and resolves impacts and captures. *hit gets the
+ * contacts with an impact or a capture, as bits; impulse[forced] gets the impulses. Returns the number of moments, 0 to
+ * 2, that count towards WH_EVENTS_MAX. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *s, unsigned *hit,
                                         wh_real *impulse) {

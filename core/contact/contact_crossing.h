@@ -142,7 +142,7 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-/* Saves the values of all crossings at the start `s` of a trial step in work->stood, if a sign is undecided. */
+/* If any crossing has an undecided sign, saves the values of all crossings in work->stood. */
 WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;

@@ -12,7 +12,7 @@ typedef struct wh_contact_attempt {
     wh_margins margins; /* at `next` */
     /* bits: free stops whose gap grows at `next`, but is so small that it may have been closed during the trial step */
     unsigned leaving;
-    unsigned dips; /* bits: stops that are open at both ends, but may have been closed in between */
+    unsigned dips; /* bits: stops open at `now` and `next`, perhaps closed in between */
     int fault;     /* if !sound: the component that left its bounds */
     bool made;
     bool sound; /* `next` is within bounds */
@@ -28,8 +28,7 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Finds impacts on the stops in a->leaving. A stop was hit if its gap was positive or closing at `now` and is negative
- * at `next`. If the gap is positive at both ends, but the tangents to it meet below zero, sets the bit in a->dips. */
+/* Finds impacts on the stops in a->leaving. If an impact is only possible, sets the stop's bit in a->dips. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -63,8 +62,7 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
 }
 
 /* Searches the gaps of the stops in a->dips for a negative value. Returns the earliest time found, as a fraction of the
- * trial step, or 1 if there is none. Probes alternate between the time at which the tangents at both ends meet and the
- * time at which a linear rate would be zero. */
+ * trial step, or 1 if there is none. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

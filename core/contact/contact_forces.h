@@ -5,8 +5,7 @@
 #include "contact_lcp.h"
 
 /* Computes work->force again if a force exceeds its limit, or if a redundant contact contradicts the others. `repeats`
- * are the redundant contacts, as bits of indices in member[]. A contact that gives way gets a force beyond its limit.
- * accel[] changes only after a contradiction. */
+ * has the redundant contacts, as bits of indices in member[]. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -109,9 +108,9 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Solves for all impulses at once, adds them to impulse[forced] and applies them to rate[]. J_k q' becomes target[k] of
- * contacts in `set` (bits), and zero for stops in `beside` (bits) and for all other active stops and holds. But a stop
- * that would have to pull gets no impulse. Returns these stops as bits. work->law must belong to the position. */
+/* Applies impulses to rate[] and adds the impulses to impulse[forced]. Contacts in `set` (bits) get J_k q' = target[k].
+ * Stops in `beside` (bits) and the remaining active stops and holds get J_k q' = 0. Returns, as bits, the stops without
+ * an impulse, because the impulse would pull. work->law must belong to the position. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

@@ -7,7 +7,7 @@
 /* A rate counts as zero below this fraction of the rate change that an impact or friction causes. */
 #define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
 
-/* Two gaps close at the same time if they differ by at most this fraction of the sum of their terms' magnitudes. */
+/* A gap counts as closed if the gap is at most this fraction of the sum of its terms' magnitudes. */
 #define WH_CONTACT_TIE (WH_DOUBLE ? WH_R(0x1p-50) : WH_R(0x1p-21))
 
 typedef struct wh_contact_moment {
@@ -70,8 +70,7 @@ static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_
     return WH_ABS(pressing) <= none ? WH_R(0.0) : pressing;
 }
 
-/* True if stop k comes to rest instead of bouncing with `speed`: a force presses the body onto the stop, and the flight
- * would be shorter than WH_REST_SHARE of the step, or m->last is set. Without a force, it rests if `speed` is zero. */
+/* True if the body comes to rest on stop k: a flight with `speed` would be shorter than WH_REST_SHARE of the step. */
 static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_contact_moment *m, wh_real speed,
                                     const wh_real *accel, const wh_real *rate) {
@@ -101,8 +100,7 @@ static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_co
     return bits;
 }
 
-/* Returns, as bits, the closing free stops that touch within the error of location and round-off. They are hit
- * together, so the result does not depend on which one was located first. */
+/* Returns, as bits, the closing free stops whose gap is nearly zero. One impact hits all these stops. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
                                        wh_real h, const wh_real *signal, wh_contact_state *s) {
     const wh_real *rate = wh_contact_rates(of, s);
@@ -118,8 +116,7 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Adds touching free stops outside `hits` to work->hit_next if an impulse has made them close, or close more than twice
- * as fast. before[] and after[] are the signals before and after the impulse. */
+/* Adds to work->hit_next the touching free stops, except `hits`, that an impulse closes. before[], after[]: signals. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -134,8 +131,8 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Bits: the free stops that touch without restitution and nearly at rest. They take part in the impact of the stops
- * `hits`: if two such stops had separate impacts, each could cause the next one of the other for ever. */
+/* Returns, as bits, touching free stops at rest without restitution. Such stops share the impact of `hits`, because
+ * separate impacts could cause each other for ever. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -173,9 +170,7 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Resolves the impact of the stops in `hits` (bits). Each stop bounces, or rests if its flight would be too short. This
- * is decided before the impulse, because a second impulse could release other stops. A resting stop that the impact
- * releases rests again if its flight would be too short. Returns `hits` and the stops that close at the same time. */
+/* Resolves the impact of the stops in `hits` (bits). Returns `hits` and wh_contact_tied(), as bits. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -244,7 +239,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* these stops stay closed, so their rates become zero */
+    if ((gone | leaving) != 0) {
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -253,9 +248,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* Moves bodies that are beyond free stops back onto them; if `coarse`, only those that wh_contact_far() finds. The
- * displacement is the smallest in the metric of the mass matrix. *pushed gets the stops that pushed a body, as bits.
- * Returns these and the stops that were passed. Then signal[] and work->law belong to `s`. */
+/* Moves bodies that are beyond free stops back onto the stops; if `coarse`, only bodies that wh_contact_far() finds.
+ * *pushed gets the stops that pushed a body, as bits. Returns *pushed and the stops that a body had passed, as bits.
+ * signal[] and work->law afterwards belong to `s`. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -355,8 +350,8 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
-/* Returns the change of hold k's condition from its value `now` if the held expression rises by WH_EDGE_PROBE times
- * wh_contact_extent(), and its rate by WH_EDGE_PROBE times wh_contact_terms(). work->law must belong to `s`. */
+/* Returns how much hold k's condition changes from `now` if the held expression and its rate rise a little
+ * (WH_EDGE_PROBE). work->law must belong to `s`. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -376,7 +371,7 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* Returns the round-off of hold k's condition, or 0 if |now| is larger. It has the sign of wh_contact_own(). */
+/* Returns the round-off of hold k's condition, signed like wh_contact_own(), or 0 if |now| exceeds the round-off. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -402,7 +397,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real own = wh_contact_own(of, w, k, input, s, signal[2 * k]);
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
-            /* leave a condition that hardly depends on the held expression */
+            /* moves no hold whose condition hardly depends on the held expression */
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
                 wanted[i] = by;
                 mover = k;

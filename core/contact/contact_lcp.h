@@ -29,11 +29,10 @@
  * would release and hit an unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* The curvature terms J' q' of redundant contacts count as equal if they differ by less than this fraction of the
- * acceleration's terms. The small rate that remains after friction has stopped a motion is thus no contradiction. */
+/* A missing curvature term J' q' of a redundant contact counts as zero below this fraction of work->rough. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* A force whose excess over its limit is hidden by round-off gets this excess, as a fraction of the limit. */
+/* If round-off hides that a force exceeds its limit, the force grows by this fraction of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
@@ -48,9 +47,7 @@ typedef struct wh_contact_set {
 
 /* Finds redundant contacts whose wanted acceleration the other contacts do not produce. For each contact in `repeats`
  * (bits of indices in member[]), push[] gets the sign of the missing acceleration, or 0. way[] is the change of the
- * accelerations by all forces. The curvature term J' q' is also tested by itself, because round-off of the
- * accelerations hides it in a slow motion. In an impact, impulse[] is not NULL, and rates take the place of
- * accelerations. */
+ * accelerations by all forces. If impulse[] is not NULL, `wanted` and way[] are changes of rates. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -126,7 +123,7 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* Carries the round-off of each contact to the others, without growth (Cauchy-Schwarz inequality). */
+    /* Spreads the round-off of each contact to the contacts that it accelerates. */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
@@ -143,9 +140,8 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way if the force of the redundant contact member[i] grows in direction `push`. This is
- * member[i] itself if it is a friction or would have to pull. Otherwise this is the contact whose force reaches a limit
- * first. Returns its index in member[], or `count` if there is none. *limit gets that limit (-1: low, 1: high). */
+/* Finds the contact that gives way if the force of the redundant contact member[i] grows in direction `push`. Returns
+ * the contact's index in member[], or `count` if there is none. *limit gets the contact's limit (-1: low, 1: high). */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -179,9 +175,9 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     return first;
 }
 
-/* Does one round of the pivoting. A contact at a limit (at[] is -1: low, 1: high) gets the force of this limit.
- * Contacts with at[] = 0 get the forces that give the accelerations `wanted`, even beyond a limit. `way`, zero on
- * entry, gets the change of the accelerations by all forces. Returns the redundant contacts, as bits of indices. */
+/* Computes lambda[]: the limit if at[] is -1 (low) or 1 (high), otherwise the force that gives the acceleration
+ * `wanted`. `way`, zero on entry, gets the change of the accelerations by all forces. Returns the redundant contacts,
+ * as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {
@@ -242,8 +238,7 @@ typedef struct wh_contact_pivot {
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     unsigned contradicted; /* bits: contacts at a limit because of a contradiction */
-    /* bits: contacts at a limit whose accelerations lead away from the constraint */
-    unsigned giving;
+    unsigned giving;       /* bits: contacts that give way */
 } wh_contact_pivot;
 
 /* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A freed contact becomes the last

@@ -11,9 +11,8 @@ WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work 
     return of->ledger != NULL && w->books != NULL;
 }
 
-/* Enters the work and the impulse of contact k, whose force `lambda` acted for the time `share` while J_k q' was
- * `speed`. If `lambda` is an impulse, `share` is 1 and `speed` is the mean speed. Work on an input with a rate is not
- * entered here, because it belongs to the input's entry. */
+/* Enters the work and the impulse of contact k. `lambda` is a force during the time `share`, or an impulse with
+ * `share` = 1. `speed` is the mean of J_k q'. Work on driven inputs belongs to the entries of the inputs. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
                                   wh_real *entry) {
@@ -57,8 +56,8 @@ WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* Adds `sign` times the energy and the momenta to the entry of crossing k. Call this with sign -1 before the crossing's
- * assignments, and with sign 1 after them. */
+/* Adds the energy and the momenta, times `sign`, to the entries of crossing k. `sign` is -1 before the assignments and
+ * 1 after the assignments. */
 static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,
                                    wh_real sign) {
@@ -73,9 +72,8 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
     }
 }
 
-/* Call wh_books_look() before the projection of a contact, and wh_books_moved() after it. The second call adds the
- * changes of the energy and the momenta to the contact's entries. It drops changes within round-off: in float, their
- * sum over many steps would exceed the true entries. */
+/* Call wh_books_look() before a projection, and wh_books_moved() after the projection. wh_books_moved() adds the change
+ * of energy and momenta to the entries of contact k, except changes within round-off. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_state *s, const wh_real *input) {
     if (wh_books_open(of, w)) {

@@ -2,13 +2,12 @@
  *
  *     avr_run mcu=atmega328p hz=16000000 [counts=FILE [every=N]] PROGRAM.elf
  *
- * Prints the output of the program's first USART. The program ends by sleeping with interrupts off; its exit status is
- * the byte in GPIOR0 (boards/avr/board.c). Exit status 125: simavr cannot run the program. 123: the program crashed, or
- * its stack ran into its variables, which these chips do not detect.
+ * Prints the output of the program's first USART. The program ends by sleeping with interrupts off. The exit status is
+ * the program's GPIOR0 (boards/avr/board.c), 125 if simavr cannot run the program, or 123 if the program crashed or the
+ * stack ran into the variables.
  *
- * If the program has wh_count_begin() and wh_count_end() (boards/programs/counted.h), FILE gets the log that
- * mk/count/count_plugin.c describes, with the cycles of each interval, and a last line "intervals TOTAL". The cycles
- * are those of the data sheet's instruction set, exact for these chips: no caches, no wait states. */
+ * FILE gets the log that mk/count/count_plugin.c describes, with the cycles of each interval and a last line "intervals
+ * TOTAL". The program must have wh_count_begin() and wh_count_end() (boards/programs/counted.h). */
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_core.h>
@@ -134,8 +133,7 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
 
 /* Executes one instruction. Returns false if the program has ended. */
 static bool step(avr_t *avr) {
-    /* number of successive instructions after which the stack pointer was among the variables */
-    static unsigned low = 0;
+    static unsigned low = 0; /* successive instructions with the stack pointer among variables */
     const int state = avr_run(avr);
     if (state == cpu_Crashed) {
         went_wrong(avr, "crashed");
