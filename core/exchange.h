@@ -40,7 +40,7 @@ typedef enum wh_signal_kind {
 /* The channels of each kind are numbered from 0 in the order of the signals. */
 typedef struct wh_signal {
     wh_signal_kind kind;
-    const char *name; /* the plant's name of the input, output, coordinate or rate; or the note's */
+    const char *name; /* name of the plant's input, output, coordinate or rate, or of the note */
     const char *unit; /* an SI unit */
     float low;
     float high;

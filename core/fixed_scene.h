@@ -84,8 +84,8 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
 /* Convert in floating point; no step calls these functions. wh_fixed_of() rounds to the nearest integer, ties away from
- * zero. A value beyond low..high gives the nearer end, and NaN gives `low`. Both increment *saturated, except if the
- * scaled value is beyond the end by at most 1 (float: plus the end's round-off). */
+ * zero. A value beyond low..high gives the nearer end, and NaN gives `low`. NaN increments *saturated, and so does a
+ * scaled value that is beyond an end by more than 1 (float: more than 1 plus the end's round-off). */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

@@ -1,6 +1,6 @@
-/* function_log_double.c: the natural logarithm in double: log x = e log 2 - log c + log(1 + r), if x = 2^e (1 + r)/c. A
- * table has the numbers c. They have 15 bits, so r is exact; |r| <= 2^-8. Near x = 1, e is 0 and c is 1. The result is
- * a pair, because pow() needs more than 53 bits. */
+/* function_log_double.c: the natural logarithm in double. If x = 2^e (1 + r)/c, log x is e log 2 - log c + log(1 + r).
+ * A table gives c, so that |r| <= 2^-8. Each c has 15 bits, so r is exact. The result is a pair, because pow() needs
+ * more than 53 bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE

@@ -75,7 +75,7 @@ static turned reduced(double rad) {
     const uint64_t bits = wh_bits(rad);
     const uint64_t mantissa = (bits & (UINT64_MAX >> 12)) | (UINT64_C(1) << 52);
     const unsigned field = (unsigned)(bits >> 52) & 2047U;
-    const unsigned first = field > 1013U ? field - 1013U : 0U; /* 9 to 1033 */
+    const unsigned first = field > 1013U ? field - 1013U : 0U;
     uint64_t word[3];
     uint64_t carry = 0;
     for (unsigned i = 3; i-- > 0;) {

@@ -1,7 +1,7 @@
 /* function_tan_float.c: the tangent in float, of an angle of any size. Quarter turns are subtracted in integers, with
  * as many digits of 2/pi as needed (M. Payne and R. Hanek, "Radian reduction for trigonometric functions", SIGNUM
- * Newsletter 18 (1983) 1). About 60 digits after the point suffice: no float is nearer to a multiple of a quarter turn
- * than 2^-30 quarter turns. */
+ * Newsletter 18 (1983) 1). 60 binary digits after the point suffice, because no float is nearer to a multiple of a
+ * quarter turn than 2^-30 quarter turns. */
 #include "function_float.h"
 
 #if !WH_DOUBLE

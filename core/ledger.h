@@ -30,21 +30,21 @@ typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_rea
 struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *powers;  /* result[smooth]: time derivative of each smooth entry */
-    wh_levels_fn *levels; /* result[1 + all coordinates] */
+    wh_levels_fn *levels; /* result[wh_ledger_level_count(form)] */
     /* Replaces `powers` if an entry depends on a turn angle itself, not only on its sine and cosine. Else NULL. */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] index of each smooth entry's account */
     const uint8_t *input;   /* [inputs] index in state->input of each input that enters L */
     uint16_t smooth;        /* number of smooth entries */
     uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
-    uint8_t accounts;       /* other stored reals: 2 per account, 1 per input, 1 if stabilized */
+    uint8_t accounts;       /* reals after entries: 2 per account, 1 per input, 1 if stabilized */
     uint8_t coordinates;    /* number of integrated coordinates */
     uint8_t angles;         /* number of coordinates stored as turn angles; they come first */
     uint8_t inputs;
     bool stabilized; /* each step corrects part of the energy's drift (stabilize.h) */
 };
 
-/* Index of the entry of contact k's energy. Those of its impulses follow, one for each coordinate. */
+/* Index of the entry of contact k's energy. The next entries are the contact's impulses, one for each coordinate. */
 WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) {
     return form->smooth + k * (1U + form->coordinates);
 }
@@ -54,7 +54,7 @@ WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
     return (unsigned)form->entries - form->inputs - form->stabilized;
 }
 
-/* If form->stabilized: index of the entry of the energy that stabilization has added. */
+/* Index of stabilization's entry. Valid only if form->stabilized. */
 WH_INLINE unsigned wh_ledger_of_stabilized(const wh_ledger_form *form) {
     return form->entries - 1U;
 }

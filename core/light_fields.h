@@ -24,8 +24,8 @@
     X(thomson_a_conserved) \
     X(shuttle_buffers)
 
-/* model: hash of the scene's operations. hash: hash of the last state, number of steps, status. cycles: least, median
- * and largest number of cycles of a step. */
+/* A scene's fields. `model` has a hash of the operations. `hash` has three values: a hash of the last state, the number
+ * of steps, and the status. `cycles` has the least, median and largest number of cycles of a step. */
 #define WH_LIGHT_OF_SCENE(scene) "model." #scene, "hash." #scene, "cycles." #scene,
 #define WH_LIGHT_FIELDS \
     "board", "chip", "version", "compiler", WH_LIGHT_SCENES(WH_LIGHT_OF_SCENE) "stack", "clock", \

@@ -1,8 +1,8 @@
 /* real.h: the core's number type, wh_real, and macros for all core files. wh_real is float, or double in the
  * reference build (WH_DOUBLE=1). Both builds use no library, and only IEEE 754 additions, multiplications, divisions,
  * square roots and conversions. So the same source gives the same bits on every machine, unless the compiler changes
- * the operations. This file forbids the contraction to fused multiply-adds after its #include. It stops the compilation
- * if a macro shows that an option changes operations; wh_scene_start() detects the other options (arithmetic.h). */
+ * the operations. real.h forbids fused multiply-adds. The compilation stops if a macro shows that an option changes the
+ * operations. wh_scene_start() detects options without a macro (arithmetic.h). */
 #ifndef WH_REAL_H
 #define WH_REAL_H
 

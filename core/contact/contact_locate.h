@@ -182,8 +182,7 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
-/* Adds work->slack to the margins of the holds that have it. If such a hold is not in `events` (bits), the events at
- * the end of the trial step, its margin does not become negative. */
+/* Adds work->slack to the holds' margins. A hold with slack and no event in `events` (bits) has no negative margin. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -260,14 +259,13 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         wh_contact_accel(&model, at.phase, at.linear, at.rate, input, path.a1);
     }
     wh_real reach = WH_R(1.0);
-    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)}; /* widths before the last two probes */
-    /* After the next probe the interval has at most this width, so the later ones can halve it to WH_BRACKET. */
+    wh_real earlier[2] = {WH_R(4.0), WH_R(4.0)};
+    /* Largest width of the interval after the next probe. */
     wh_real most = WH_PROBES_SPARE;
     for (unsigned i = 0; i < WH_PROBES && high - low > WH_BRACKET_FINE; i++) {
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* A zero margin at `low` counts as a root: for a force only if `low` is 0, for a sliding friction never. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -276,8 +274,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* `root` is an estimate. The guess is farther than `root` from the nearer end of the interval, so that the true
-         * root probably lies between that end and the guess. */
+        /* `over` shifts the guess, so that the event is probably in the interval's shorter part. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;

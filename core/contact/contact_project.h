@@ -20,7 +20,7 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
 /* Adds the product a b to *sum, and its round-off to *rest, because the round-off would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
-    *sum += a * b; /* exact if opposite rotations cancel each other */
+    *sum += a * b;
 }
 
 /* Returns the displacement of a straight hold k, rad or m: its constant J_k times the change of the coordinates. */
@@ -154,7 +154,6 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             }
         }
     }
-    /* The other coordinates move only if contacts tie them to the pinned ones. */
     for (unsigned i = 0; i < count; i++) {
         const bool pinned = wh_contact_pinned(of, member[i]);
         wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
@@ -186,8 +185,8 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     return coarse;
 }
 
-/* Projects the rates along all active contacts to zero together, except for the contacts in `but` (bits). If `booked`,
- * the ledger gets the impulses. work->law must belong to the position. */
+/* Makes the rate along each active contact zero, unless `but` (bits) has the contact. If `booked`, the ledger gets the
+ * impulses. work->law must belong to the position. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -221,8 +220,7 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Returns the sum of the magnitudes of the terms of contact k's expression, the scale of its round-off. Each angle
- * counts as 1 rad. */
+/* Returns the scale of the round-off of contact k's expression. Each angle counts as 1 rad. */
 static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;

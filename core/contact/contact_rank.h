@@ -63,15 +63,14 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* Returns the first hold whose orthogonal row is nonzero in `before`, and vanishes or has reversed its direction in
- * `after`; of->contacts if there is none. */
+/* Returns the first hold whose orthogonal row vanishes or reverses from `before` to `after`, or of->contacts. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     of = WH_CONTACTS_HERE(of);
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* The row of a single hold must have turned by almost half a turn: a smaller turn is only a coarse step. */
+        /* A coarse step can turn a single hold's row, so only an almost opposite row counts. */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {

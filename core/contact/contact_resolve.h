@@ -99,12 +99,9 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sets the mode of each friction by its rate:
- * - A friction sticks if friction could stop the rate in a negligible part of the time h.
- * - A friction in `zeros` (bits) sticks unless an impulse of this moment has changed its rate.
- * - Otherwise, if its rate is not 0, the friction slides in the direction of the rate. The old direction stays if the
- *   rate is opposite to it only by the error of location (work->slack).
- * If h is not 0, work->law must belong to the position. */
+/* Sets the modes of the frictions. A friction sticks if its rate is negligible, or if `zeros` (bits) has the friction
+ * and no impulse has changed its rate. Otherwise a nonzero rate sets the direction of sliding. If h is not 0, work->law
+ * must belong to the position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -134,9 +131,7 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Returns, as bits, the resting stops without load (within round-off) that push in the same direction as a stop in
- * `gone` (bits). The caller releases them with `gone`, because redundant supports lose their load at the same time. A
- * support that stayed would be released and hit again because of round-off. */
+/* Returns, as bits, the resting stops without load that push in the same direction as a stop in `gone` (bits). */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -153,9 +148,8 @@ WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact
     return bits;
 }
 
-/* Releases resting stops that would have to pull, and stuck frictions beyond their limits. After each release the
- * forces are computed again, because other contacts may then have to give way. A contact in `must` (bits) is released
- * even if all forces are within their limits, because the search found its force beyond the limit. */
+/* Releases resting stops that would have to pull, and stuck frictions beyond their limits. If all forces are within
+ * their limits, releases contacts in `must` (bits), whose event was located. */
 static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned must, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -197,8 +191,7 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* If a friction in work->turned sticks, projects the rates along all active contacts to zero. The sliding frictions in
- * work->turned keep their direction, even if their small rate is opposite to it. */
+/* If a friction in work->turned sticks, makes the rates along all active contacts zero. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -314,10 +307,9 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Adapts the active contacts outside `but` (bits) to input rates that changed between two steps. If the force of a
- * resting stop cannot bring the body to the new rate within the step, the stop opens or is hit. Impulses correct the
- * rates along the other contacts. Returns `but` and the stops that open, as bits. *hits gets the stops that are hit, as
- * bits. work->law must belong to the position. */
+/* Adapts the active contacts that are not in `but` (bits) to input rates that changed between two steps. Returns `but`
+ * and the stops that open, as bits. *hits gets the stops that are hit, as bits. work->law must belong to the
+ * position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {

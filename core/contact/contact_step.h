@@ -90,8 +90,7 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Computes a trial step of length `left` from the state a->next, which becomes the step's end. If holds can
- * slip, a->now must be the start, too. */
+/* Makes a trial step of a->next by the time `left`. If holds can slip, a->now must be the step's start. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -271,7 +270,6 @@ typedef struct wh_contact_progress {
     bool done;
 } wh_contact_progress;
 
-/* If no trial step was made yet: sets the modes if the run starts, otherwise adapts the contacts to changed inputs. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
     wh_contact_state *now = &p->attempt->now;
@@ -381,7 +379,7 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     wh_contact_attempt_dipped(of, w, p->reach, p->input, a);
     if (a->dips != 0 && p->round + 2U < WH_EVENTS_MAX) {
         const wh_real share = wh_contact_dip(of, a, p->input);
-        if (share < WH_R(1.0)) { /* the next trial step ends at the dip and counts as a moment */
+        if (share < WH_R(1.0)) {
             p->reach *= share;
             p->round++;
             return;
@@ -455,9 +453,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     return wh_contact_progress_end(of, w, &p, state);
 }
 
-/* Does one step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact
- * in state->fault. A trial step may leave an expression's domain after an event, because it is then shortened to end
- * at this event. */
+/* Does one step with its events. Returns WH_E_UNDEFINED or WH_E_SINGULAR with the contact in state->fault. The other
+ * results are those of wh_step_second(). */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;

@@ -29,13 +29,12 @@ typedef struct wh_contact_work {
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
     /* Bits: stops that were closed when the trial step began, and may now open. */
     unsigned inside;
-    unsigned hit_next; /* bits: touching stops that an impact made close; they hit next */
+    unsigned hit_next; /* bits: touching stops that the next impact hits */
     /* bits: frictions whose rate has just come to zero: they may stick or slide on */
     unsigned turned;
-    /* A sliding friction, a crossing or an active hold has its next event only if its signal, negated if the mode is
-     * negative, falls below -slack. */
+    /* A signal that passes zero by at most this much gives no event. */
     wh_real slack[WH_CONTACTS_MAX];
-    /* Crossing that turned back: its sign becomes undecided if its value is not farther than this from zero. */
+    /* The sign of a crossing that turned back is undecided until the value exceeds this. */
     wh_real due[WH_CONTACTS_MAX];
     /* Crossing whose sign is undecided: an earlier value. The sign is decided if |value - stood| exceeds |stood|. */
     wh_real stood[WH_CONTACTS_MAX];
@@ -44,7 +43,7 @@ typedef struct wh_contact_work {
     unsigned moved;  /* bits: contacts whose signals a crossing's assignments changed */
     unsigned mover;  /* the crossing whose assignments set `moved` */
     unsigned stands; /* bits: crossings at zero; wh_contact_turn_back() decides their signs */
-    /* The events' time was located, and no contact has been moved since: a crossing with an event counts as zero. */
+    /* Crossings with an event are at zero, within the error of location. */
     bool located;
     bool capped;   /* the pivoting reached its limit of rounds */
     int fault;     /* component that was assigned a value beyond its range, or -1 */
@@ -60,15 +59,14 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* `of`, for functions that may not be inlined: there, `gcc -Os` does not know that `of` is the scene's constant, and
- * warns of unbounded loops. */
+/* Gives functions that are not inlined the scene's constant: otherwise `gcc -Os` warns of unbounded loops. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
 #define WH_CONTACTS_HERE(of) (of)
 #endif
 
-/* The scene's contacts. A generated scene defines this as its own constant, so the compiler knows the members. */
+/* The scene's contacts; a generated scene defines WH_CONTACTS_OF as a constant. */
 #ifndef WH_CONTACTS_OF
 #define WH_CONTACTS_OF(model) ((model)->of)
 #endif
@@ -132,8 +130,7 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* Computes the point after the time `span` from the rates of `s` and accel[coordinates] (NULL: no acceleration).
- * at->rate stays the rate of `s`. */
+/* Extrapolates `s` by the time `span`. accel[coordinates] may be NULL. at->rate is the rate of `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {

@@ -2,9 +2,8 @@
  *
  * real.h refuses compiler flags that macros reveal. Other faults have no macro: contraction that the pragmas do not
  * reach, clang's -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, another
- * rounding mode. They change the numbers that wh_arithmetic() computes. The compiler cannot compute
- * these in advance, because their arguments are volatile. scene.c compares them with references at every
- * wh_scene_start(). */
+ * rounding mode. Such a fault changes results of wh_arithmetic(). The arguments are volatile, so that the compiler
+ * cannot compute the results in advance. wh_scene_start() compares the results with references (scene.c). */
 #ifndef WH_ARITHMETIC_H
 #define WH_ARITHMETIC_H
 

@@ -117,8 +117,8 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* Converts radians to a stored angle. A float would round the factor 2^32/(2 pi), so integers are used. The factor is
- * 683565276 - 1819212470/2^32. For `fraction`, in units of 2^-31 rad, it is 1367130551/2^32. */
+/* Converts radians to a stored angle. A float would round the factor 2^32/(2 pi), so integers are used. The factor of
+ * `whole` is 683565276 - 1819212470/2^32. The factor of `fraction` (units of 2^-31 rad) is 1367130551/2^32. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */

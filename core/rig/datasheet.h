@@ -30,8 +30,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 
 #define WH_RIG_SENSORS 2U /* slot sensors */
 
-/* Mass of two sets. Each has an arm of 0.152 lb and 7.25 in, and a disc of 0.15 lb. The disc's centre is 6.5 in from
- * the shaft, or disc_m metres in a macro with this argument. */
+/* Mass of two sets. Each set is an arm of 0.152 lb and 7.25 in, and a disc of 0.15 lb. The disc's centre is 6.5 in from
+ * the shaft. In a macro with the argument disc_m, that distance is disc_m metres. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 

@@ -38,7 +38,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     /* Two successive pulses of the same sensor mean that the rotor has reversed between them. */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
-        /* A swing backwards cannot get over the top: a pulse was lost, and the rotor turns forwards. */
+        /* A pulse was lost: the rotor turns forwards. */
         swing->forward = true;
         swing->swings = false;
         swing->kept = 0;
@@ -322,7 +322,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
         before = -rate / slowed;
         after = h - before;
         ratio = (pulled + sign * cause[WH_FREE_FRICTION]) / slowed;
-        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* otherwise friction holds the rotor */
+        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* 0: friction holds the rotor */
         rotor->rate_radps = ratio * slowed * after;
     }
     const wh_real both = ratio * before + after;

@@ -59,11 +59,11 @@ wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
 /* A rotor under gravity and friction alone, and the derivatives of its motion with respect to the initial state, g, f
  * and c.
  *
- *      q'' = -g sin q - f sign q' - c q'          q: angle from hanging; g = S g0/I; f and c: friction over I
+ *      q'' = -g sin q - f sign q' - c q'
  *
- * A step uses Stoermer's method (drift, kick, drift), forwards or backwards in time. If the motion reverses within the
- * step, friction changes its sign, and the rate has a kink. There the derivatives are multiplied by the acceleration
- * after the kink, divided by the acceleration before it. */
+ * q is the angle from hanging. g is S g0/I. f is Coulomb friction over I, c is viscous friction over I. A step uses
+ * Stoermer's method (drift, kick, drift), forwards or backwards in time. If the rotor reverses within the step, the
+ * derivatives are multiplied by the acceleration after the reversal, divided by the acceleration before. */
 
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
 
@@ -76,7 +76,7 @@ typedef struct wh_free_rotor {
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
-/* Does a step of h seconds: backwards if h < 0, and much shorter than a swing. Reads only g, f and c of cause[]. */
+/* Steps by h seconds, backwards if h < 0. |h| must be much shorter than a swing. Reads only g, f and c of cause[]. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
 /* Wraps an angle into -pi ... pi by at most one turn; returns 0 for larger angles and NaN. */
@@ -155,13 +155,13 @@ typedef struct wh_swing {
     unsigned at;     /* index of the next pulse */
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* pulses not used in this pass: too far from the predicted angle */
-    /* Pulses used, by sensor. A result needs sensor 2: sensor 1's pulses also fit the swing's mirror image. */
+    /* Number of pulses used, by sensor. A result needs at least one pulse of sensor 2. */
     unsigned fits_of[WH_RIG_SENSORS];
     uint32_t ticks;
     wh_real soft_rad2;                  /* additional variance of each pulse */
     wh_free_rotor way;                  /* the rotor at the time `ticks` of a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS]; /* unknowns: q - position 1, q', g, f, c, positions 1 and 2 */
+    wh_real x[WH_NORMAL_UNKNOWNS]; /* unknowns: q minus position 1, q', g, f, c, both positions */
     wh_real guess[WH_NORMAL_UNKNOWNS];
     wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];
@@ -189,9 +189,9 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call this in every control step. `swings`: the motor's leads are open after a run. They must open while the rotor
- * still turns forwards. `rests`: the rotor is at rest. If `swings` becomes false while `rests` is false, the result is
- * WH_SWING_NOT_FREE. While wh_swing_works(), each step at rest does a bounded part of the work. */
+/* Call this in every control step. `swings` is true while the motor's leads are open after a run. The leads must open
+ * while the rotor still turns forwards. `rests` is true while the rotor is at rest. If `swings` ends before the rotor
+ * rests, the result is WH_SWING_NOT_FREE. While wh_swing_works(), each step at rest does a bounded part of the work. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 

@@ -1,9 +1,9 @@
 /* gravity_compensation.h: feed-forward of gravity's torque to the motor.
  *
  * Gravity's torque on arms in a vertical plane is -S g sin(theta - gamma). S is the sum of mass times radius, gamma the
- * direction of gravity. Uncompensated, it varies the speed by the fraction E = S g/(I omega^2) of its mean. theta is
- * the observer's angle, predicted for the middle of the time in which the voltage acts: half a control step later
- * (zero-order hold), plus the delays of computing and of the motor's inductance. */
+ * direction of gravity. Without compensation, gravity varies the speed omega by the fraction E = S g/(I omega^2). The
+ * observer predicts theta for the time lead_ticks from now. lead_ticks is half a control step (zero-order hold), plus
+ * the delays of computing and of the motor's inductance. */
 #ifndef WH_RIG_GRAVITY_COMPENSATION_H
 #define WH_RIG_GRAVITY_COMPENSATION_H
 
@@ -15,7 +15,7 @@ typedef struct wh_compensation_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
     wh_real gravity_rad; /* gamma: the angle at which the arms hang */
     wh_real stall_Nm;    /* motor torque at standstill and rated voltage, > 0 */
-    uint32_t lead_ticks; /* time from now to the middle of the time in which the voltage acts */
+    uint32_t lead_ticks; /* theta is predicted this far ahead */
     wh_real fade_s;      /* duration of the fade-in; 0: no fade-in */
     wh_real most;        /* limit of the result, a multiple of the rated voltage, >= 0 */
 } wh_compensation_config;
@@ -32,8 +32,8 @@ typedef struct wh_compensation {
 extern const wh_compensation_config wh_compensation_standard;
 
 /* Does one control step of step_s seconds; call it after the observer's step. Returns the voltage to add to the drive's
- * voltage, as a multiple of the rated voltage. It is 0 if a number is NaN, or while the observer is not valid; after
- * that it fades in again. */
+ * voltage, as a multiple of the rated voltage. Returns 0 if the voltage is NaN, or while the observer is not valid. The
+ * voltage fades in after the observer has become valid. */
 wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensation *compensation,
                              const wh_observer *observer, uint32_t now_ticks, wh_real step_s);
 

@@ -21,7 +21,7 @@ wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps,
     const wh_real fall = falls * config->fall_radps;
     const wh_real bound = WH_SQRT(led * led + fall * fall);
     const wh_real most = config->limit_radps * (WH_R(1.0) + config->ripple);
-    return bound < most ? bound : most; /* also if `bound` is NaN */
+    return bound < most ? bound : most; /* NaN gives `most` */
 }
 
 WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
@@ -41,7 +41,7 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 #define ALONE_PAIR 2U     /* value of wh_off.alone after two turns */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-#define ALONE_SURE 6U /* least wh_off.alone for over-speed: jitter at rest gives fewer pulses */
+#define ALONE_SURE 6U /* value of wh_off.alone that jitter at rest does not reach */
 
 static uint8_t one_more(uint8_t count) {
     return (uint8_t)(count < ALONE_SURE ? count + 1U : count);

@@ -39,7 +39,7 @@ typedef struct wh_guard_config {
     wh_real target_min_compensated_radps;
     wh_real target_max_radps; /* largest set-point */
     wh_real limit_radps;      /* largest mean speed of a turn */
-    /* At the speed limit: the largest speed within a turn minus its mean, as a fraction of the mean. */
+    /* largest speed divided by mean speed, minus 1, within a turn at limit_radps */
     wh_real ripple;
     wh_real over; /* allowed excess over the commanded speed, as a fraction */
     /* Largest sum of wh_pulses.climb_radps and .climb_before_radps, as a fraction of the turn's speed. */
@@ -85,13 +85,13 @@ typedef struct wh_guard_config {
 typedef struct wh_off {
     bool released;
     bool doubted;      /* released while only one sensor fired */
-    bool asks;         /* if the next pulse is not from `sensor` again, the rig trips */
+    bool asks;         /* the rig trips unless `sensor` also gives the next pulse */
     uint8_t sensor;    /* number of the last pulse's sensor, 1 or 2; 0: no pulse yet */
     uint8_t alternate; /* successive pulses, each preceded by a pulse of the other sensor */
     uint8_t alone;     /* successive pulses, each preceded by a pulse of the same sensor */
     struct wh_off_turns {
         uint32_t ticks;
-        uint32_t turn_ticks;  /* time between the sensor's last two pulses; 0 before its second */
+        uint32_t turn_ticks;  /* time between the sensor's last two pulses; 0: fewer than two */
         uint32_t first_ticks; /* duration of the last turn before the speed began to rise */
         uint8_t faster;       /* number of successive turns faster than the one before */
         uint8_t longer;       /* number of successive turns slower by the factor LONGER */
@@ -109,7 +109,7 @@ typedef struct wh_guard {
     uint32_t rejected_before; /* rejected pulses when the motor began to drive */
     uint32_t load_ticks;      /* time of the last load sample, or of the start */
     uint32_t load_pulses;     /* accepted pulses at the last load sample */
-    uint32_t still_pulses;    /* samples of a constant load, each after a new pulse */
+    uint32_t still_pulses;    /* pulses since the load's last change, at most one per sample */
     wh_real still_N;          /* the load at its last change */
     wh_off off;
 } wh_guard;
@@ -122,8 +122,8 @@ bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool c
 /* Factor on wh_guard_config.fall_radps if the inertia may be half the configured one: sqrt(2), plus a margin. */
 #define WH_GUARD_LIGHTER WH_R(1.5)
 
-/* Returns a bound on the mean speed between two pulses, rad/s: sqrt((limit_radps (1 + over))^2 + (falls fall_radps)^2),
- * at most config->limit_radps (1 + ripple). `config` has over, ripple and fall_radps. Gravity adds the second term. */
+/* Returns a bound on the mean speed between two pulses, in rad/s: sqrt(a^2 + b^2), but at most config->limit_radps
+ * (1 + config->ripple). a is limit_radps (1 + config->over). b is gravity's part, `falls` times config->fall_radps. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. The
@@ -140,14 +140,14 @@ WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real b
 /* Stop for this reason, unless the rig already has one. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
 
-/* Call this when the motor begins to drive: it resets the checks of the pulses with the motor off. */
+/* Clears guard->off. Call this when the motor begins to drive. */
 void wh_guard_drives(wh_guard *guard);
 
 /* Checks a pulse with the motor off, and may trip the rig or release the brake. `brakes`: the enable is on. */
 void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                         unsigned sensor, uint32_t ticks);
 
-/* Checks whether the rotor is at rest, in each step and state. pulses_ever is the total number of pulses. */
+/* Updates guard->quiet. Call this in each step, in every state. pulses_ever is the total number of pulses. */
 WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
                               uint32_t now_ticks) {
     if (pulses_ever != guard->pulses_seen) {
@@ -160,12 +160,12 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Checks for over-speed, in each step and state. The rig trips with `reason` if a turn is faster than limit_radps, or
- * two successive pulse intervals are faster than pulses->bound_radps. One interval is enough if the speed also rises
- * faster than pulses->climb_radps2 at two successive pulses.
+/* Checks for over-speed. Call this in each step, in every state. The rig trips with `reason` if a turn is faster than
+ * limit_radps, or if two successive pulse intervals are faster than pulses->bound_radps. One such interval suffices if
+ * the speed rises faster than pulses->climb_radps2 at two successive pulses.
  *
- * The check needs `alternate` successive pulses that alternate between the sensors: with the motor off, a swinging
- * rotor can fire one sensor repeatedly. `alternate` is 0 while the motor drives. */
+ * `alternate` is the number of successive pulses that must alternate between the sensors. A rotor that swings with the
+ * motor off can fire one sensor repeatedly. `alternate` is 0 while the motor drives. */
 #define WH_GUARD_BRAKES 1U /* `alternate` while the motor brakes */
 /* `alternate` with the enable off. One false pulse can corrupt several turns, so several pulses must alternate. */
 #define WH_GUARD_COASTS 6U

@@ -9,9 +9,9 @@
 
 /* A turn that violates one of these limits does not count. */
 #define GAP_PERIODS WH_R(3.5) /* largest gap between nodes, in sample periods */
-#define OUTLIERS_PER_TURN 10U /* least number of samples per outlier */
+#define OUTLIERS_PER_TURN 10U /* one outlier is allowed per this many samples */
 
-/* A load is frozen if this many successive samples equal the one before. At 100 rpm, a load without noise has fewer. */
+/* A load is frozen if this many successive samples equal the one before. */
 #define FROZEN_SAMPLES 8U
 
 /* An outlier deviates by more than 6 standard deviations plus 2 % of the first order. */
@@ -299,7 +299,7 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* The prediction stays valid after a turn with a gap. If that turn also has outliers, the load may have changed. */
+    /* After a turn with a gap, the prediction stays valid, unless the turn had outliers. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;

@@ -28,13 +28,13 @@ WH_C_BEGIN
 /* Harmonics 3 to 6 of the load that repeat in each turn, by synchronous averaging (Braun, Acustica 32 (1975) 69).
  *
  * The load's residual after orders 0 to 2 is summed at each angle of the rotor over the turns of a record. Noise and
- * mains hum average out. A cell with clipping, backlash or a nonlinear gain leaves such harmonics. A torque that
- * acts twice per turn leaves a third harmonic, because it changes the speed.
+ * mains hum average out. Clipping, backlash or a nonlinear gain of the cell causes harmonics 3 to 6. A torque that acts
+ * twice per turn changes the speed, and so causes a third harmonic.
  *
- * A rigid rotor on a fixed mount leaves almost none: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
+ * A rigid rotor on a fixed mount has the speed w with w^2 = A + B cos(theta + psi - gamma). The force F = S (w^2
  * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping and the angle's third-order terms (result.c) add
- * little. The noise is estimated from differences of successive residuals. So hum and slow
- * changes do not count as noise. */
+ * little. The noise is estimated from differences of successive residuals. So hum and slow changes do not count as
+ * noise. */
 
 /* Number of angles at which the residual is summed. Hum at harmonic 26 of the turn (50 Hz at 115 rpm) is aliased to
  * harmonic 6, with a fifth of the hum's amplitude. */
@@ -194,9 +194,8 @@ void wh_lockin_gap(wh_lockin *lockin);
 /* Take a sample, in the order of time. A sample that is not ok, or not newer than the last one, is not used. */
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
-/* Call this once per control step. It does a bounded piece of the work: `halves` half nodes, or
- * WH_LOCKIN_HALVES_AT_ONCE if the step has no other work. Returns true if this call has finished another
- * lockin->turn. */
+/* Call this once per control step. The call does one piece of the work. If nodes are summed, the piece is at most
+ * `halves` half nodes. Returns true if this call has finished another lockin->turn. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
 

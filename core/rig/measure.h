@@ -15,13 +15,13 @@ WH_C_BEGIN
  *
  * Motion is slow: drift, a rotor that swings (1 to 3 Hz), a vibrating frame (up to some 10 Hz). Mains hum is fast. So
  * the check uses means of 40 samples with triangular weights. A new mean begins every 20 samples. At 2 ms per sample,
- * their gain is at most 1.6 % from 45 to 65 Hz, 0 at 50 Hz, and 87 % at 5 Hz.
- * White noise of variance s^2 gives the means the variance s^2/30. The estimate of s^2 is half the mean square of the
- * differences of successive samples (von Neumann, Annals of Mathematical Statistics 12 (1941) 367). The check allows
- * 4 s^2/30. With eleven means, noise alone exceeds this limit in less than one of 10,000 tares. */
+ * the gain of a mean is at most 1.6 % from 45 to 65 Hz, 0 at 50 Hz, and 87 % at 5 Hz. White noise of variance s^2 gives
+ * the means the variance s^2/30. s^2 is estimated as half the mean square of the differences of successive samples (von
+ * Neumann, Annals of Mathematical Statistics 12 (1941) 367). The limit on the variance of the means is 4 s^2/30 +
+ * still_N^2. Noise alone exceeds 4 s^2/30 in less than one of 10,000 tares of eleven means. */
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* at least 4 WH_TARE_BLOCK, because the check needs three means */
+    uint32_t samples; /* at least 4 WH_TARE_BLOCK */
     wh_real still_N;  /* largest standard deviation that slow motion may add to the means */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
@@ -97,8 +97,8 @@ void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *index);
 /* Take a load sample: for the tare if at_rest, otherwise for the measurement. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* Call this once per control step. It does a bounded piece of the work: at most `halves` half nodes of a turn's sums.
- * If `halves` is less than WH_LOCKIN_HALVES_AT_ONCE, all other work waits, because it cannot be split. */
+/* Call this once per control step. The call does one piece of the work. If a turn's nodes are summed, the piece is at
+ * most `halves` half nodes. Other pieces need `halves` of at least WH_LOCKIN_HALVES_AT_ONCE. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
 /* Begin a record now, at a speed > 0; drop an earlier record. */

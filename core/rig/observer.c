@@ -130,7 +130,7 @@ static void set_out(const wh_observer_config *config, wh_observer *observer, uns
         turned_rad += WH_RIG_TWO_PI;
     }
     const wh_real speed_radps = turned_rad / time_s;
-    observer->valid = false; /* the disturbance torque is kept */
+    observer->valid = false;
     observer->good_pulses = 0;
     observer->runs = time_s > WH_R(0.0) && speed_radps > config->slowest_radps &&
                      speed_radps < config->fastest_radps;

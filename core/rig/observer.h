@@ -34,10 +34,10 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_RIG_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_RIG_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                   /* largest magnitude of the torque */
-    /* The observer is valid after trusted_pulses successive innovations of at most trusted_rad, until a larger one. */
+    /* The observer is valid only if the last trusted_pulses innovations are at most trusted_rad. */
     wh_real trusted_rad;
     uint32_t trusted_pulses;
-    wh_real lost_rad;      /* a larger innovation restarts the observer; < pi */
+    wh_real lost_rad;      /* an innovation above lost_rad restarts the observer; lost_rad < pi */
     wh_real slowest_radps; /* lowest speed at which the observer starts, > 0 */
     wh_real fastest_radps;
     uint32_t silence_ticks; /* after this time without a pulse the state is unknown */
@@ -62,8 +62,8 @@ typedef struct wh_observer {
 
 /* The configuration for the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen
  * for 80 to 400 rpm and for rotors with 0.5 to 6 times the scene's inertia, 0.7 to 1.3 times its gravity and up to 0.2
- * N m of friction. At a steady speed, the errors of angle, speed and torque decay from turn to turn. The spectral
- * radius is 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. */
+ * N m of friction. At a steady speed, each turn multiplies the errors of angle, speed and torque by about this factor:
+ * 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400 (spectral radius). */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
@@ -82,7 +82,7 @@ wh_status wh_observer_start(const wh_observer_config *config, wh_observer *obser
                             uint32_t now_ticks);
 
 /* Advance to now_ticks, in whole steps of the scene. `drive` is the motor's drive since the last call, as a fraction of
- * the rated voltage. An observer that is WH_OBSERVER_STEPS_MOST steps or more behind restarts. */
+ * the rated voltage. The observer restarts if WH_OBSERVER_STEPS_MOST steps or more are due. */
 #define WH_OBSERVER_STEPS_MOST 8U
 /* Maximum number of steps in one call. After a delay, several calls catch up. */
 #define WH_OBSERVER_STEPS_AT_ONCE 2U

@@ -123,7 +123,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* Pulses jitter. So the last turn may be outside the band if the mean of several turns is in the band. */
+    /* Pulses jitter, so a mean speed within the band is enough. */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&
@@ -269,9 +269,7 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* `slow` needs a braking motor, because the intervals of a rotor that swings to and fro do not give its speed.
-     * `slow` needs a pulse of sensor 2 (index 1), because one of sensor 1 may come from a rotor that fell back a
-     * quarter turn from sensor 2. That looks like three quarters of a turn forwards. */
+    /* Without the brake, or at sensor 1, a rotor that swings could seem slow. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

@@ -35,7 +35,7 @@ typedef struct wh_run_config {
     wh_real take_over_radps; /* speed at which the control loop closes */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    /* half-width of the band about the target; the last turn or the mean of WH_RUN_TURNS turns must be in the band */
+    /* half-width of the band about the target while the run settles */
     wh_real settle_band_radps;
     wh_real settle_s;          /* least time within the band before the record */
     wh_real settle_max_s;      /* longest time to settle */
@@ -57,8 +57,7 @@ typedef struct wh_run {
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
     wh_real off_radps; /* upper bound on the speed while the motor is off */
-    /* Upper bound on the speed at the last pulse, motor on. It may exceed a lowered set-point: a motor stage that
-     * cannot brake slows the rotor less quickly than the set-point falls. */
+    /* Upper bound on the speed at the last pulse. left_radps can exceed a falling set-point. */
     wh_real left_radps;
     uint32_t tare_pulses[WH_RIG_SENSORS];
     uint32_t turns;                   /* turns counted while the run settles and records */
@@ -90,7 +89,7 @@ void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 /* Switch the motor off, from any phase. speed_radps is an upper bound on the speed. */
 void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
 
-/* Does one control step, and trips if a phase fails. Returns true in the step in which the record is measured. */
+/* Does one control step, and trips if a phase fails. Returns true if the step has completed the record's result. */
 bool wh_run_step(wh_run *run, const wh_run_scene *scene);
 
 WH_INLINE bool wh_run_drives(const wh_run *run) {
@@ -117,15 +116,14 @@ const char *wh_phase_text(wh_rig_phase phase);
 
 /* === bounds on the speed and time of the next slot pulse, from the drive's set-point ========= */
 
-/* Sets run->left_radps, and bound_radps, climb_radps2 and window of *pulses, for the pulse captured at `ticks`. Call it
- * before wh_pulses_take(), with the motor on or off. `open`: the motor neither drives nor brakes. bound_radps is then
- * higher (WH_GUARD_LIGHTER). */
+/* Sets run->left_radps, pulses->bound_radps, pulses->climb_radps2 and pulses->window for the pulse captured at `ticks`.
+ * Call this before wh_pulses_take(), with the motor on or off. `open` means that the motor neither drives nor brakes.
+ * If `open`, bound_radps is higher (WH_GUARD_LIGHTER). */
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks);
 
-/* Lowers run->off_radps to the speed since the last pulse. Call it before wh_pulses_take(), with the motor off. If a
- * sensor fires twice in succession, it calls wh_pulses_forget(): the rotor swings, or a pulse was missed. It also
- * updates pulses->slow, which is false if the motor does not brake. */
+/* Updates pulses->slow, and lowers run->off_radps to the speed since the last pulse. Call this before wh_pulses_take(),
+ * with the motor off. If one sensor fires twice in succession, the function calls wh_pulses_forget(). */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 
