@@ -93,8 +93,7 @@ static size_t all_reals(const wh_scene *scene) {
     return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
 }
 
-/* True if every object in a state's memory may begin here: at a multiple of its alignment in a struct. On some machines
- * (i386, AVR) that is less than its size. */
+/* True if `memory` is aligned for every object of a state, as for a member of a struct. */
 static bool is_aligned(const void *memory) {
     struct behind_a_byte {
         char byte;

@@ -71,8 +71,8 @@ struct wh_scene {
     void (*arithmetic)(wh_real *result);
 };
 
-/* Bytes of caller memory for wh_scene_start() (the generated header has them). all_reals counts the state's reals, a
- * low part for each component if the scene is compensated, the inputs, the holds' values and the ledger's reals. */
+/* Bytes of caller memory for wh_scene_start(). The generated header calls this macro. all_reals is the number of reals,
+ * inputs, held values and the ledger's reals. If the scene is compensated, add the numbers of angles and reals. */
 #define WH_MEMORY_BYTES(angles, all_reals, contacts) \
     ((contacts) > 0 ? (WH_NUMBER_BYTES(angles, all_reals) + 7U) / 8U * 8U + sizeof(wh_contacts) \
                     : WH_NUMBER_BYTES(angles, all_reals))
@@ -110,14 +110,15 @@ struct wh_scene {
  * - WH_E_ARITHMETIC: compiler flags or the machine's modes change results. state->fault is the failed check. */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
-/* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
- * with the last good state kept and state->fault set; a repeated call with the same inputs fails in the same way.
- * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_scene_start(). */
+/* Do one step; `scene` and `state` must not be NULL. Returns WH_OK or an error:
+ * - WH_E_ARGUMENT: the state is zeroed, or wh_scene_start() has refused it.
+ * - WH_E_DIVERGED, WH_E_UNDEFINED, WH_E_SINGULAR: the last good state is kept, and state->fault is set. A repeated call
+ * with the same inputs fails with the same error. */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
-/* Do `steps` steps (0 is allowed), with the same bits as `steps` calls of wh_scene_step(). If the scene's file is
- * compiled with -DWH_MULTI_STEP=1, the steps take fewer instructions, but twice the flash. Returns as wh_scene_step()
- * does; state->steps counts the steps done. */
+/* Do `steps` >= 0 steps, with the same bits as `steps` calls of wh_scene_step(). Returns as wh_scene_step() does.
+ * state->steps counts the steps done. -DWH_MULTI_STEP=1 for the scene's file saves instructions, but the step's code
+ * then takes twice the flash. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Correct one component of the state from a measurement, between two steps; SI units. The generated header has the

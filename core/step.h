@@ -18,8 +18,7 @@
 #include "step/multi_step.h"
 #include "step/step_end.h"
 
-/* Computes a phase at a stage: the angle at the begin plus h / parts * sum, with the sum of the rates weighted by the
- * stage's shares. Returns as wh_phase_move() does. */
+/* Computes the phase of `angle` + h / parts * `sum`. Returns as wh_phase_move() does. */
 WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
                               wh_phase *phase) {
     return parts == WH_R(2.0)

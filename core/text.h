@@ -40,7 +40,8 @@ void wh_text_start(wh_text *text, char *bytes, unsigned size);
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
 
-/* Returns item `number`, or else the last, of a WH_WORD_LIST such as WH_WORDS("one") WH_WORDS("two"). */
+/* Returns item `number` (from 0) of a WH_WORD_LIST such as WH_WORDS("one") WH_WORDS("two"). If `number` is too large,
+ * returns the last item. */
 #define WH_WORDS(words) words "\0"
 const char *wh_words_item(const char *list, unsigned number);
 

@@ -1,5 +1,5 @@
 /* console.h: a UART to a person or a program. On a PC it is standard output or a pseudo-terminal. Bytes are unchanged.
- * Boards implement it (boards/<family>/), because programs without a rig need a console, too. */
+ * Each family of boards implements these functions (boards/<family>/). */
 #ifndef HAL_CONSOLE_H
 #define HAL_CONSOLE_H
 
@@ -17,9 +17,8 @@ void hal_console_write(const char *bytes, unsigned count);
  * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes, 0 if nobody is
  * connected. Do not call them in an interrupt or a fault handler.
  *
- * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero. If the
- * board detects a loss of bytes, one zero is read instead of them. Do not execute a line that contains a zero. A
- * damaged Escape is still read as Escape, because a needless stop is harmless. */
+ * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero,
+ * a damaged Escape as Escape. A detected loss of bytes is read as one zero. Do not execute a line with a zero. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

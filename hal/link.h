@@ -1,6 +1,6 @@
-/* link.h: a line of bytes to and from the plant's simulator. Bytes arrive in order. Boards implement it by semihosting
- * files (boards/cortexm/link.c), file descriptors of the PC (boards/host/link.c) or their console (link_console.c). If
- * a function detects that the simulator is gone, the program ends with status HAL_LINK_GONE. */
+/* link.h: a line of bytes to and from the plant's simulator. Bytes arrive in order. The line is a pair of semihosting
+ * files (boards/cortexm), file descriptors (boards/host) or the console (boards/shared/link_console.c). If a function
+ * detects that the simulator is gone, the program ends with status HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 

@@ -35,8 +35,8 @@ typedef struct hal_load_sample {
     uint8_t status; /* a hal_load_status */
 } hal_load_sample;
 
-/* Takes the oldest sample, or returns false. At least 4 samples are stored; more are lost. Do not call this function
- * from an interrupt: the queue has one reader only. */
+/* Takes the oldest sample, or returns false. The queue has room for at least 4 samples; a full queue loses samples. Do
+ * not call this function from an interrupt: the queue has one reader only. */
 bool hal_loadcell_take(hal_load_sample *sample);
 
 WH_C_END

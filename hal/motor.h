@@ -24,8 +24,8 @@ enum {
     HAL_MOTOR_NO_SUPPLY = 4 /* the measured supply voltage is 0: the stage cannot drive */
 };
 
-/* If the motor is off, sets 0 V and switches the enable on. Returns hal_motor_status(). HAL_MOTOR_NO_SUPPLY alone does
- * not keep the enable off. Do not call it in an interrupt. */
+/* If the motor is off, sets 0 V and switches the enable on, even if the status is HAL_MOTOR_NO_SUPPLY. Returns
+ * hal_motor_status(). Do not call this function in an interrupt. */
 unsigned hal_motor_start(void);
 
 /* Drives the motor with a mean voltage, clamped to 0 ... hal_motor_supply_V() (NaN: 0), until the next call. No effect

@@ -115,7 +115,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* Any speed fits if without.lost has risen: a false pulse together with a lost one is unlikely. */
+    /* If a pulse is missing without the suspect, the suspect is probably a true pulse. */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
@@ -169,7 +169,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* Two short intervals or early pulses in succession show a faster rotor, not a disturbance. */
+    /* The second early pulse in succession is trusted, because the rotor is faster. */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;
@@ -181,7 +181,6 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
-    /* A pulse also counts as early if the speed rises by more, or falls by less, than climb_radps2 allows. */
     if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
         pulses->alert = true;
     }

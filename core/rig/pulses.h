@@ -34,10 +34,10 @@ typedef struct wh_pulses {
     bool alert;    /* the last pulse was early: the next pulse is no suspect, even if early */
     /* Set by the caller: motor off, rotor almost at rest. A speed far above bound_radps then adds 2 to `fast`. */
     bool slow;
-    wh_real bound_radps;  /* set by the caller: limit on the speed between two pulses, or 0 */
-    wh_real window;       /* set by the caller: fraction of a turn by which a pulse may be early */
+    wh_real bound_radps; /* set by the caller: limit on the speed between two pulses; 0: no limit */
+    wh_real window;      /* set by the caller: fraction of a turn by which a pulse may be early */
     wh_real climb_radps2; /* set by the caller: limit on the rise of the turns' speed */
-    /* rise of the turns' speed at the last pulse, minus the rise that climb_radps2 allows; 0 if that is negative */
+    /* max(0, rise of the turns' speed at the last pulse - rise that climb_radps2 allows) */
     wh_real climb_radps;
     wh_real climb_before_radps; /* climb_radps at the previous pulse */
     unsigned fast;              /* number of successive intervals with a speed above bound_radps */

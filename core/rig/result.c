@@ -18,14 +18,14 @@
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* The sum of these terms limits a healthy rig's repeating residual, as a fraction of the force, without noise and
- * jitter (tests/host/test_repeats_truth.c). turn_angle.h defines psi, E, A and `cut`. */
+/* Without noise and jitter, a healthy rig's repeating residual is at most the force times the sum of these terms
+ * (tests/host/test_repeats_truth.c). turn_angle.h defines psi, E, A and `cut`. */
 #define REPEATS_LAG WH_R(0.4)    /* times psi E^2: effect of the damping */
 #define REPEATS_ARROW WH_R(1.6)  /* times E ripple_off_rad: effect of the ripple's error */
 #define REPEATS_CUT WH_R(0.29)   /* times `cut`: effect of a motor that cannot brake enough */
 #define REPEATS_TWICE WH_R(6.0)  /* times A: effect of the carriage */
 #define REPEATS_CELL WH_R(1e-4)  /* constant: nonlinearity of the cell */
-#define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples, rad^2 */
+#define REPEATS_STEP WH_R(0.012) /* times (angle between samples)^2, rad^2: effect of sampling */
 
 /* Repeating residual of one turn, as a fraction of the force, per radian of the pulses' jitter. */
 #define REPEATS_JITTER WH_R(0.15)
@@ -107,8 +107,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* The expected force is S times the mean of the squared speed over the angle. This mean is (2 pi/turn_s)^2 times
-     * 1 + 3/2 (E^2 + (2 A)^2). */
+    /* The ripples E and A (turn_angle.h) raise the mean of the squared speed over the angle. */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -136,7 +135,7 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
     }
 }
 
-/* Returns the variance that jitter gives the phase, rad^2, without the share that scatter_N2 contains. */
+/* Returns the part of the phase's variance, rad^2, that jitter causes and scatter_N2 misses. */
 static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
@@ -145,8 +144,7 @@ static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh
     if (angle->ratios == 0) {
         return shared;
     }
-    /* 1.625 jitter2 is the variance of a quadrature ratio: its three pulses add 1, 9/16 and 1/16 of jitter2 (sensor 2
-     * at a quarter turn). 1.0 is the covariance of ratio and phase. */
+    /* The three pulses of a quadrature ratio give the ratio the variance (1 + 9/16 + 1/16) jitter2. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);
@@ -179,7 +177,7 @@ static wh_real t2_of(const wh_merge *merge) {
     return student * student;
 }
 
-/* Sets amplitude_half_N and phase_half_rad to squared half-widths, N^2: the scatter along and across the force. */
+/* Stores squared half-widths, N^2, in *measured. amplitude_half() and phase_half() replace these squares. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -205,7 +203,7 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* ripple that an error of the compensation's angle causes; the quadrature ratio mistakes it for E's */
+        /* An error of the compensation's angle causes this ripple, rad. */
         .quadrature =
             angle->compensated ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
@@ -272,9 +270,7 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
 }
 
-/* Returns the error of the angle model's ripple, rad, from the force's second order. The model expects a second order
- * in the direction psi - gamma, with 3/2 E/(1 + 3/2 E^2) times the amplitude of the first order. An error of E changes
- * the second order by 3/2 of the error, and by 1/2 more through the model's angle. So the difference is halved. */
+/* Returns the error of the ripple, rad. The force's second order, divided by the first, has twice this error. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
@@ -298,7 +294,7 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                          REPEATS_ARROW * swing * measured->ripple_off_rad +
                          REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
                          REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
-    /* A coefficient's variance is 2 s^2/samples. The noise's variance s^2 is half of the mean squared change. */
+    /* variance that noise gives a harmonic's coefficient */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
     const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
     return WH_SQRT(REPEATS_NOISE * noise_N2 +

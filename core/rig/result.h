@@ -3,15 +3,14 @@
  * The half-widths of the intervals are for 95 %. A half-width is the root of the sum of squares of these parts:
  *
  * - scatter: Student's factor times the standard error of the mean over the turns.
- * - pulses (phase): successive turns share a pulse. So the scatter shows only half of the variance that the pulses'
- * jitter causes; this part is the other half. The second differences of the pulse times give the jitter.
- * - quadrature ratio (phase): the same jitter gives an error of this ratio. From it follows the rotor's inertia, or the
- * uncompensated part of gravity.
- * - angle: the damping has a tolerance, and the model of the angle within a turn neglects the third order. With gravity
- * compensation, the compensation's angle may be wrong, and the motor may brake less than commanded.
- * - carriage (amplitude): the moving mass has a tolerance.
+ * - pulses (phase): jitter of the pulse times, found from their second differences. The scatter contains only half of
+ * the jitter's variance, because successive turns share a pulse. This part is the remaining half.
+ * - quadrature ratio (phase): jitter also changes the quadrature ratio (turn_angle.h).
+ * - angle: the damping has a tolerance, and the angle's model neglects the third order. With gravity compensation, the
+ * compensation's angle may be wrong, and the motor may brake less than commanded.
+ * - carriage (amplitude): the configured inertia has a tolerance.
  * - drift (phase): the speed may change within a turn, but the angle is computed for a constant mean speed.
- * - floors: the configured calibration uncertainties; 0.5 % and 0.5 degrees before calibration. */
+ * - floors: the configured calibration uncertainties. Before calibration they are 0.5 % and 0.5 degrees. */
 #ifndef WH_RIG_RESULT_H
 #define WH_RIG_RESULT_H
 
@@ -52,12 +51,12 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* fraction of the fixed mount's force; carriage: M/(M + m) (rig.h) */
+    wh_real mount_factor; /* force / (force on a fixed mount); carriage: M/(M + m) (rig.h) */
     /* Calibration uncertainties at 95 %: a fraction of the force, and an angle. 0: uncalibrated. */
     wh_real amplitude_floor;
     wh_real phase_floor_rad;
-    /* Limits: fractions of the expected force, or rad. Beyond a limit ending in `wrong`, the result is refused;
-     * beyond another, it is doubtful. */
+    /* Limits: fractions of the expected force, or rad. If a value exceeds a `wrong` limit, the result is refused. If a
+     * value exceeds an `off` or `large` limit, the result is doubtful. */
     wh_real amplitude_off;
     wh_real amplitude_wrong;
     wh_real phase_off_rad;
@@ -88,8 +87,9 @@ typedef struct wh_merge {
     wh_repeats repeats;
     wh_real in_phase_N; /* components of the first order, means over the turns */
     wh_real quadrature_N;
-    wh_real second_N[2];   /* components of the second order: cosine, sine */
-    wh_real scatter_N2[3]; /* sums of x^2, x y, y^2; deviations: x in phase, y in quadrature */
+    wh_real second_N[2]; /* components of the second order: cosine, sine */
+    /* sums of x^2, x y, y^2; x: deviation of a turn from in_phase_N, y: deviation from quadrature_N */
+    wh_real scatter_N2[3];
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;
@@ -115,7 +115,7 @@ typedef struct wh_measured {
     wh_real phase_half_rad;
     wh_real expected_N; /* amplitude expected from masses, speed and mount */
     wh_real residual_N; /* rms of the load without its orders 0 to 2 */
-    /* the larger of two amplitudes of the residual: harmonics 3 to 6 together, and 1.27 times the third harmonic */
+    /* amplitude of the repeating residual: max(amplitude of harmonics 3 to 6, 1.27 * amplitude of harmonic 3) */
     wh_real repeats_N;
     wh_real repeats_limit_N; /* largest repeats_N of a healthy rig with this noise */
     wh_real jitter_s;        /* standard deviation of the pulse times */
@@ -142,8 +142,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 #define WH_MERGE_MEAN_PIECES 6U
-/* Compute means (mean_N and at_pulse_N minus tare_N) and half-widths in pieces. With one turn, half-widths are 0.
- * Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
+/* Compute means and half-widths. Call this once for each `piece`, 0 to WH_MERGE_MEAN_PIECES - 1, in order. Before the
+ * last piece, *measured is incomplete. mean_N and at_pulse_N are without tare_N. With one turn, half-widths are 0. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);

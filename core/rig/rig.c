@@ -113,8 +113,7 @@ static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsi
 /* Duration of a turn at 3,200 rpm. Shorter turns are noise, because no motor of the settings turns that fast. */
 #define STORM_TICKS 18750U
 
-/* True if the rotor takes longer from sensor 1 to sensor 2 than from there on to sensor 1. In the right order, these
- * are a quarter turn and three quarters. Two comparisons are needed, because the rotor may speed up. */
+/* In the right order, sensor 2 fires a quarter turn after sensor 1. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -127,7 +126,7 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* The speed bound falls WH_RUN_START_S after the loop closes. The trip may be this much later: it needs two pulses. */
+/* A trip for over-speed needs two pulses, which may take this time. */
 #define TWO_PULSES_S WH_R(0.5)
 
 /* Returns the likely cause of the guard's trip, or that trip itself if the cause is unknown. */
@@ -150,7 +149,7 @@ static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t
     return starts ? WH_TRIP_FASTER : trip;
 }
 
-/* === conditions of orders that are not in the table of states ================================ */
+/* === conditions of orders ==================================================================== */
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
                                    const wh_rig_inputs *inputs) {
@@ -374,7 +373,7 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     rig->orders = 0;
 }
 
-/* The rotor may turn at least this angle without a pulse: two lost pulses leave a gap of up to 7 quarter turns. */
+/* Two lost pulses leave a gap of up to 7 quarter turns: 11 rad. */
 #define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
@@ -406,7 +405,6 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (!drives) {
         rest(config, rig, inputs->now_ticks);
     }
-    /* If the speed was known when the motor went off, the rotor can only become slower. */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses,
                    !slows        ? WH_TRIP_OVERSPEED
@@ -429,7 +427,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* an old sample may look recent after the timer wraps */
+        guard->load_good = false; /* the last sample would look recent after the timer wraps */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
@@ -437,7 +435,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
 }
 
 static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    /* To decide about a suspect takes as long as two pulses, so the observer waits for the next step. */
+    /* A step that decides about a suspect has no time left for the observer. */
     if (rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks) {
         return;
     }

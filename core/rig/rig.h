@@ -83,7 +83,7 @@ typedef struct wh_rig_config {
     wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest wait for the rotor to come to rest after a trip */
-    /* Longest wait for rest after a run without a trip. After a trip for unreliable pulses, `clear` waits this long. */
+    /* Longest wait for rest after a run. After a trip for unreliable pulses, `clear` is refused for this time. */
     wh_real rest_max_s;
     /* If true, the motor brakes at a run's end and after `stop`. After a trip or the stop input it always coasts. */
     bool stop_brakes;
@@ -91,7 +91,7 @@ typedef struct wh_rig_config {
     bool swings;
     bool host_loss_stops; /* a run ends if the host that gives the orders is lost */
     uint32_t host_max_s;  /* the host is lost after this time without an order; 0: never */
-    uint32_t settings;    /* hash of the settings (core/station/conf.h), or 0 */
+    uint32_t settings;    /* hash of the settings (core/station/conf.h); 0: no settings are used */
 } wh_rig_config;
 
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;

@@ -140,7 +140,7 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
         WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
     observer->no_load_radps = motor->no_load_radps;
     config->compensation.most *= before.stall_Nm / motor->stall_Nm;
-    /* The motor stage gives no negative voltage: below `slowest`, it might clip the compensation. */
+    /* Below the speed `slowest`, the compensation might need a negative voltage. */
     const wh_real slowest = config->guard.target_min_compensated_radps * before.stall_Nm /
                             motor->stall_Nm * motor->no_load_radps / before.no_load_radps;
     if (slowest > config->guard.target_min_compensated_radps) {

@@ -6,8 +6,7 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* Returns sin(A/2) of a swing with the amplitude A. `time` is the duration of half this swing divided by that of half a
- * small swing: 2/pi K(sin(A/2)). The table has A = 0, 30, ... 120, 150, 165, 175 deg. */
+/* Returns sin(A/2), A the amplitude. `time` is period(A) / period(0) = 2/pi K(sin(A/2)), K an elliptic integral. */
 static wh_real sine_of_time(wh_real time) {
     static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
                                     WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
@@ -36,7 +35,7 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* guess: period of these swings, divided by that of a small swing */
+    /* These swings last longer than small swings; the factor is a guess. */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
@@ -71,7 +70,7 @@ void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing) {
     }
 }
 
-/* Loss of squared speed at q, divided by g: 4 sin^2(q/2). This is its mean from q = 0 (hanging) to 90 deg. */
+/* mean of 4 sin^2(q/2) over q = 0 to 90 deg: squared speed lost, divided by g */
 #define FALLEN WH_R(0.727)
 
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
@@ -95,7 +94,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
     x[WH_FREE_GRAVITY] = gravity;
-    /* The first amplitude, about 2.3 sine, is lost in 2 passed + 1 quarter swings: friction/gravity in each of them. */
+    /* Each quarter swing takes friction/gravity from the amplitude, which begins near 2.3 sine. */
     x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_FREE_Q] =

@@ -56,14 +56,14 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real sine = tangent * cosine;
     const wh_real lambda = small_arc(sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
-    /* 2 (base + phi) + lambda, in the further term of turn_angle.h, is 2 u plus the angle of `turned`. */
+    /* 2 (base + phi) + lambda of turn_angle.h is 2 u + 2 (gamma - psi) + lambda. */
     const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* Adds the effect of a clipped compensation (turn_angle.h). With k = held_Nm / weight_Nm, the torque
- * S g (-sin(theta - gamma) - k) remains while it is positive. Its Fourier series has a term of twice the angle. */
+/* Adds the effect of the torque that a clipped compensation leaves (turn_angle.h):
+ * weight_Nm * max(0, -sin(theta - gamma) - held_Nm / weight_Nm). */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
@@ -150,14 +150,14 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* The lag psi depends on the inertia: d psi = tan psi dE / E. */
+    /* d lag/d swing = tan(lag)/swing, because the inertia determines lag and swing. */
     const wh_real lag_per_swing =
         angle->compensated ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
-        /* If to.sine - from.sine is large, the inertia is too small: the effect of psi cancels that of E. */
+        /* A large to.sine - from.sine shows that the inertia is too small. */
         if (!angle->compensated && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }

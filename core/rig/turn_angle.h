@@ -50,7 +50,7 @@ typedef struct wh_rotor_config {
     wh_real inertia_kgm2;               /* inertia before the first estimate */
     wh_real pulse_rad[2];               /* angle theta of the arms at a pulse of each sensor */
     wh_real yields_kgm2;                /* D; 0: fixed mount. If D > 0, gravity must be 0. */
-    wh_real yields_tolerance;           /* relative error of D or I, at 95 % */
+    wh_real yields_tolerance;           /* relative error of D / inertia, at 95 % */
 } wh_rotor_config;
 
 #define WH_TURN_ANGLE_PATIENCE 32U /* turns over which the inertia is averaged */
@@ -74,7 +74,7 @@ typedef struct wh_turn_angle {
     wh_real second_cosine;
     wh_real base_per_ratio; /* derivative of base_rad with respect to the quadrature ratio */
     wh_real base_per_lag;   /* derivative of base_rad with respect to psi, at a fixed ratio */
-    /* Derivative of base_rad with respect to a ripple a quarter turn after E's (result.c). */
+    /* Derivative of base_rad with respect to a ripple in quadrature with E sin u (result.c). */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
     wh_wave at_begin; /* sine and cosine of u at the start and at sensor 2's pulse */

@@ -5,7 +5,7 @@
 
 #include "core/rig/state_machine.h"
 
-/* Adds `words`, with `blank` instead of ' '. If `blank` is not ' ', '|' ends `words`. */
+/* Adds `words` with each space replaced by `blank`. If `blank` is not a space, stops at a '|'. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {

@@ -48,7 +48,7 @@ static const char *words_of(wh_conf_id id) {
     return wh_words_item(words, id);
 }
 
-/* Returns a list (answer.h) of a choice's values. If the setting is a number, the only item is `real` or `whole`. */
+/* Returns the setting's allowed words as a list (answer.h). For a number, the list is `real` or `whole`. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);

@@ -1,7 +1,6 @@
 /* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g. The scene's operation
- * list computes the products, except those by 0 and 1. If a component's diagonal entry of Phi is near 1, the list
- * computes x + ((Phi - 1) x + Gamma u + g) instead: the products then have the round-off of the small change, not that
- * of the larger x. Bounds, statuses and turn angles are handled as in every step (step_end.h). */
+ * list computes the products, except those by 0 and 1. If a diagonal entry of Phi is near 1, the list adds the change
+ * (Phi - 1) x + Gamma u + g to x, to reduce the round-off. step_end.h handles bounds, statuses and turn angles. */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
@@ -31,7 +30,7 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Accepts given[reals], the new state, or refuses the step. For scenes that have neither turn angles nor carries. */
+/* Makes given[reals] the new state, or refuses the step. The scene must have neither turn angles nor carries. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -54,12 +53,12 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
     return sum;
 }
 
-/* Does one step of h by the operation list `matrix`, a wh_accel_fn that does not use the phases. `rates_at` is the
- * index of the first rate in the reals (second order; otherwise unused). The list gives
+/* Does one step of h by the operation list `matrix`, a wh_accel_fn that does not use the phases. In a second-order
+ * scene, `rates_at` is the index of the first rate in the reals. The list gives, in this order:
  *
- *      angles             the mean rate of each angle over the step
- *      reals              the value of each real after the step; if compensated, its change
- *      reals again        only in float, if compensated: the correction of each change for its rounded constants
+ *      angles      the mean rate of each angle over the step
+ *      reals       each real after the step; if compensated, the change of each real
+ *      reals       only in float and if compensated: an addend for each carry, because constants are rounded
  *
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
  * state unchanged. */

@@ -12,14 +12,14 @@
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* tree-ter would move an expression next to the operation that uses it, which then has to wait for the result. */
+/* With tree-ter, gcc computes an expression just before its use, and the use waits for the result. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif
 #endif
 
-/* Does what `steps` > 0 calls of scene->advance() do, and counts them. The variables are copied to local memory, to
- * which no pointer of the caller refers, so that they can be in registers. Returns as wh_scene_steps() does. */
+/* Does `steps` > 0 steps by one(), on a local copy of the state that gcc can keep in registers. Returns as
+ * wh_scene_steps() does. */
 WH_INLINE wh_status wh_multi_step(const wh_scene *of,
                                   wh_status (*one)(const wh_scene *of, wh_state *state),
                                   unsigned angles, unsigned reals, bool compensated,

@@ -20,7 +20,7 @@ WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     return WH_E_DIVERGED;
 }
 
-/* wh_refuse_first() of step_end.h for n = 2 to 4 and n = 5 to 8. Unused arguments must equal the last number. */
+/* wh_refuse_first() (step_end.h) for n = 2 to 4, and for n = 5 to 8. Arguments after the first n are ignored. */
 #define wh_refuse_four WH_NAME(wh_refuse_four)
 #define wh_refuse_eight WH_NAME(wh_refuse_eight)
 wh_status wh_refuse_four(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,

@@ -72,10 +72,10 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    /* the pairs at the begin. If `precise`, wh_turning_to() adds its increments to .sine_rest and .cosine_rest */
+    /* The pairs at the step's begin. If `precise`, .sine_rest and .cosine_rest include the rotations done. */
     wh_sine_parts parts[WH_WAVES];
-    wh_wave at[WH_WAVES]; /* the pairs after `turns` rotations by d, the rotation at stage 1 */
-    /* after a rotation: its increment if `precise`, otherwise the pair before it */
+    wh_wave at[WH_WAVES]; /* the pairs after `turns` rotations by the angle d */
+    /* If `precise`, the last rotation's increments of the pairs. Otherwise the pairs before the last rotation. */
     wh_wave way[WH_WAVES];
     wh_real bend[WH_WAVES]; /* 2 (cos d - 1) if `precise`, otherwise 2 cos d */
     unsigned turns;         /* number of rotations done */
@@ -186,8 +186,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* Computes shear[i], the shear angle of turn angle i divided by h / of->parts. gained[j][i] is how much that angle's
- * rate grows from the begin to stage j + 1. Returns false if all shear angles of this stage are zero. */
+/* Computes shear[i]: the shear angle of turn angle i is shear[i] * h / of->parts. gained[j][i] is the change of rate i
+ * from the step's begin to stage j + 1. Returns false if the stage's shares make all shear angles zero. */
 WH_INLINE bool wh_turning_shears(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                  unsigned angles, wh_real *shear) {
     bool shears = false;
@@ -360,7 +360,8 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* to->h is h.high. If stage_phase is not NULL, it gets the phases [to->angles] of each stage before accel(). */
+/* Does a second-order step. to->h is h.high. If stage_phase is not NULL, stores the phases of each stage in
+ * stage_phase[to->angles] before accel() is called. */
 WH_INLINE wh_status wh_turn_second_phases(const void *model, wh_turned_accel_fn *accel,
                                           const wh_waves *waves, const wh_stepping *to,
                                           wh_two_part h, wh_phase *stage_phase, wh_state *state) {

@@ -127,9 +127,9 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
     }
 }
 
-/* Sets trial->angle[i] to angle i moved by move[i] * rad_a_move. If compensated, adds trial->carry[i] and sets it to
- * the new round-off. Returns the first angle whose move is NaN, or half a turn or more. If there is none, returns
- * `angles`. */
+/* Sets trial->angle[i] to angle i plus move[i] * rad_a_move. If compensated, adds trial->carry[i], which
+ * becomes the new round-off. Returns the index of the first angle whose move is NaN, or at least half a turn. If there
+ * is no such angle, returns `angles`. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -163,7 +163,8 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
     return angles;
 }
 
-/* Returns value + by * factor, compensated as by wh_sum(). `product` is by.high * factor. */
+/* Returns value + by * factor. `product` is by.high * factor, and `h` the step. If compensated, adds
+ * *carry, which becomes the new round-off. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -179,14 +180,14 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns the correction of the rounded h^2 / by->parts, in s^2. `part.low` is the round-off of h / by->parts. `stages`
- * is necessary because the stages use h.high alone: without it, the energy would drift (docs/dev/numerics.md). */
+/* Returns the correction of h^2 / by->parts, s^2, for two roundings: of `part` = h / by->parts, and of h in the stages.
+ * If the second rounding were not corrected, the energy would drift (docs/dev/numerics.md). */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* wh_square_short() for angles, in phase units s^2 per radian. `turned` is true if the stages rotated sines. */
+/* Returns wh_square_short() for angles, in (phase units) s^2/rad. `turned` is true if the stages rotated sines. */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -201,7 +202,7 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
     return phases.high * part.low + part.high * phases.low;
 }
 
-/* Adds the corrections of h^2 / by->parts, multiplied by pulled[] of wh_second_end(), to the positions' carries. */
+/* Adds pulled[i] (wh_second_end()) times wh_turn_short() or wh_square_short() to each position's carry. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {

@@ -7,9 +7,8 @@
  *
  *      linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
  *
- * Neighbouring polynomials agree at the border of their cells; those of cubic tables have the same slope there, too.
- * Storing this value and slope instead of four coefficients would halve the flash, but take eleven operations instead
- * of six. The sum of the terms after `a` is small, so the round-off is little more than that of one addition. */
+ * Neighbouring polynomials agree at the border of their cells. Cubic polynomials also agree in slope there. The sum
+ * of the terms after `a` is small, so the round-off is little more than that of one addition. */
 #ifndef WH_TABLE_H
 #define WH_TABLE_H
 
@@ -31,8 +30,8 @@
 #define WH_TABLE_LINEAR 2U
 #define WH_TABLE_CUBIC 4U
 
-/* With WH_TABLE_FOLD 1, a list whose tables are all even or odd functions stores only half a turn of them: half the
- * flash, the same bits. Folding costs at most 1 % of a step's cycles without an FPU, but 14 % with an FPU. */
+/* If WH_TABLE_FOLD is 1 and every table of a list is even or odd, the list stores half a turn. Results have the same
+ * bits. Folding costs at most 1 % of a step's cycles without an FPU, but 14 % with an FPU. */
 #ifndef WH_TABLE_FOLD
 #if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
                    (defined(__riscv) && !defined(__riscv_flen)))
@@ -48,7 +47,7 @@
 /* Number of cells that the table of an even or odd function stores. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
-/* Scale the coefficients b, c and d. In float, y is 2^32 times the distance in cells: a shift of the phase gives it. */
+/* Scale the coefficients b, c and d to the unit of y: one cell in double, 2^-32 of a cell in float. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -75,7 +74,7 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     return sum - 6755399441055744.0;
 }
 
-/* First finds the coarse cell (of at most 128), then the cell within it. pi/64 has three parts (number/sine.h). */
+/* The three constants subtracted from `angle` add up to pi/64. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;

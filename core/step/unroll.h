@@ -7,8 +7,8 @@
     "core/step/unroll.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
-/* Maximum number of coordinates (second order) or components (first order). If generated code defines it, WH_UNROLL
- * unrolls the loops, so that their arrays can be in registers. */
+/* Maximum number of coordinates (second order) or components (first order). If generated code defines WH_COORDS,
+ * WH_UNROLL unrolls the next loop, so that arrays can be in registers. */
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
@@ -26,9 +26,8 @@
 #define WH_UNROLL
 #endif
 
-/* Older gcc unrolls loops with constant bounds only with -O3. This saves 15 to 30 % of a step's cycles on an
- * ATmega328P. Generated code defines WH_SMALL_STEP, unless -O3 would make a step two or three
- * times as large. */
+/* Older gcc unrolls loops only with -O3, which saves 15 to 30 % of a step's cycles on an ATmega328P. Without
+ * WH_SMALL_STEP, -O3 would make a step two or three times as large. */
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 8 && defined(WH_SMALL_STEP)
 #pragma GCC optimize("O3")
 #endif

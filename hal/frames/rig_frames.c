@@ -116,7 +116,7 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* If this time passes without a reading of stop, stop counts as pressed. */
+/* If no reading of the stop input comes for this time, the input counts as pressed. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 /* Takes the newest readings of supply, stop and dials. */

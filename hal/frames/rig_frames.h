@@ -38,7 +38,8 @@ void hal_frames_step_ends(void);
 /* Reports the end of the program to the plant (hal_turns_end()). */
 void hal_frames_end(int status);
 
-/* The carriage operator's dials, X(name, word, unit, largest magnitude), and their notes, X(name, word, unit). */
+/* The carriage operator's dials, X(name, word, unit, largest magnitude). A program with these dials also reports
+ * HAL_DIAL_NOTE_ROWS, X(name, word, unit). */
 #define HAL_DIAL_ROWS(X) \
     X(HAL_DIAL_SPEED, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_RADIUS, "dial_radius", "m", 1.0f) \

@@ -134,7 +134,7 @@ void hal_turns_step_ends(hal_turns *turns) {
     }
 }
 
-/* Its own duration does not count as computing time, because real hardware sends nothing here. */
+/* This function's duration is not computing time, because real hardware does not send these bytes. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count) {
     const uint32_t begun_timer = hal_link_timer();
     const unsigned all = count < WH_REMEMBER_MAX ? count : WH_REMEMBER_MAX;

@@ -47,15 +47,15 @@ void hal_turns_set(hal_turns *turns, unsigned channel, float value);
 /* Sets a note, a value that the controller reports about itself. This takes no simulated time. */
 void hal_turns_note(hal_turns *turns, unsigned channel, float value);
 
-/* Call these at the begin and at the end of each control step. The orders report the longest duration of a step. */
+/* Call these at the begin and at the end of each control step. hal_turns_wait() reports the longest step. */
 void hal_turns_step_begins(hal_turns *turns);
 void hal_turns_step_ends(hal_turns *turns);
 
 /* Sets the bytes that survive a reset; count <= WH_REMEMBER_MAX. After the restart they are in turns->reset. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count);
 
-/* Sends the outputs and waits for the next readings. Their time is `until_ticks`, or the end of the computing time if
- * that is later. */
+/* Sends the outputs and waits for the next readings. The readings are from `until_ticks`, or from the end of the
+ * computing time if the computing ends later. */
 void hal_turns_wait(hal_turns *turns, uint32_t until_ticks);
 
 /* Takes the oldest edge or sample. Returns false if there is none. WH_EDGES_MAX edges and WH_SAMPLES_MAX samples are
