@@ -31,9 +31,9 @@ os: base core
 number: core
 lang: base number
 algebra: base lang number
-image: base core number
-derive: algebra base core image lang number
-show: algebra base derive lang number
+derive: algebra base core lang number
+image: algebra base core derive lang number
+show: algebra base derive image lang number
 engine: base core image number os
 emit: base image number
 fixed: base core emit engine image number os

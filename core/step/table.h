@@ -1,7 +1,7 @@
 /* table.h: functions of one phase as constant tables in flash, interpolated within a cell.
  *
  * The tables have the terms of a mechanism's accelerations that depend only on one turn angle, including sines,
- * divisions and roots (host/derive/tables.c). The turn is divided into 2^bits cells; the middle of cell i is at
+ * divisions and roots (host/image/tables.c). The turn is divided into 2^bits cells; the middle of cell i is at
  * i / 2^bits turns. A cell stores the polynomials of all tables one after the other, so that one lookup of the phase
  * finds them all. y is the distance from the cell's middle, in cells:
  *

@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 
 #include "host/base/exit.h"
-#include "host/derive/image_make.h"
 #include "host/engine/engine.h"
+#include "host/image/image_make.h"
 #include "host/lang/builtin.h"
 #include "host/lang/model.h"
 

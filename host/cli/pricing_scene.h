@@ -2,7 +2,7 @@
 #ifndef CLI_PRICING_SCENE_H
 #define CLI_PRICING_SCENE_H
 
-#include "host/derive/image_make.h"
+#include "host/image/image_make.h"
 #include "host/study/grid.h"
 #include "host/study/trial.h"
 

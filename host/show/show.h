@@ -7,7 +7,7 @@
 
 #include "host/algebra/poly.h"
 #include "host/derive/equations.h"
-#include "host/derive/lower.h"
+#include "host/image/lower.h"
 
 typedef enum show_style { SHOW_TEXT, SHOW_LATEX } show_style;
 

@@ -5,12 +5,12 @@
 
 #include "host/base/alloc.h"
 #include "host/check/nonfinite.h"
-#include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/engine/loop.h"
 #include "host/engine/start.h"
 #include "host/engine/vector_field.h"
 #include "host/image/core_rows.h"
+#include "host/image/image_make.h"
 
 static const image_settings settings = IMAGE_SETTINGS_DEFAULT;
 static const engine_kind *const engine = &engine_double;

@@ -22,7 +22,7 @@
 # survivors are tried again. If the folder's code has changed, its row begins again.
 set -eu
 
-: "${FOLDERS:=core core/contact* core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
+: "${FOLDERS:=core core/contact* core/rig host/algebra host/derive host/image}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
 : "${LONGEST:=60}" "${PATIENCE:=600}" "${SLACK:=10}" "${ALWAYS:=}" "${NEVER:=^$}" "${JOBS:=2}" "${SEED:=$(date +%s)}" "${NICE:=19}" "${MAKE:=make}"
 top=build/mutants
 here=mk/mutants

@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/emit/emit.h"
 #include "host/engine/engine.h"
+#include "host/image/image_make.h"
 #include "host/show/show.h"
 
 enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };

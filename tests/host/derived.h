@@ -5,8 +5,8 @@
 
 #include "test.h"
 
-#include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
+#include "host/image/image_make.h"
 
 typedef struct derived {
     whirl_model *model;

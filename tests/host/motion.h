@@ -7,8 +7,8 @@
 
 #include "test.h"
 
-#include "host/derive/image_make.h"
 #include "host/engine/engine.h"
+#include "host/image/image_make.h"
 
 typedef struct motion {
     diags *errors;

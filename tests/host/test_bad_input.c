@@ -7,8 +7,8 @@
 #include <dirent.h>
 #include <time.h>
 
-#include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
+#include "host/image/image_make.h"
 #include "host/lang/model.h"
 
 #define FOLDER "tests/bad"

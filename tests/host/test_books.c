@@ -1,6 +1,6 @@
 /* test_books.c: the energy balance that the summary of a run prints, compared with closed forms, across impacts. */
 #include "host/cli/commands.h"
-#include "host/derive/program.h"
+#include "host/image/program.h"
 
 #include "command.h"
 #include "derived.h"

@@ -4,9 +4,9 @@
  * RANDOM_STEPS steps per scene; WHIRL_RANDOM_STEPS=N asks for N. */
 #include "command.h"
 #include "derived.h"
-#include "host/derive/program.h"
 #include "host/engine/engine.h"
 #include "host/engine/start.h"
+#include "host/image/program.h"
 
 enum { FEW_STEPS = 6000, RANDOM_STEPS = 20000, RUN = 20, SAMPLES = 200 };
 

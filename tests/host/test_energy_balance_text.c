@@ -7,7 +7,7 @@
 #include "host/check/books.h"
 #include "host/check/energy_residual.h"
 #include "host/cli/commands.h"
-#include "host/derive/program.h"
+#include "host/image/program.h"
 
 #include "command.h"
 #include "derived.h"

@@ -3,7 +3,7 @@
 #include "host/base/alloc.h"
 #include "host/check/books.h"
 #include "host/check/energy_residual.h"
-#include "host/derive/program.h"
+#include "host/image/program.h"
 
 #include "command.h"
 #include "derived.h"

@@ -1,7 +1,7 @@
 /* test_influence.c: `conserve` with forces, losses and contacts. The message must name the reason why a momentum is
  * not conserved, and a conserved coordinate on which others depend must be accurate. */
 #include "derived.h"
-#include "host/derive/program.h"
+#include "host/image/program.h"
 #include "motion.h"
 #include "parsed.h"
 #include "ranges.h"

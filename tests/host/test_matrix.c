@@ -4,8 +4,8 @@
 
 #include "host/base/alloc.h"
 #include "host/cli/commands.h"
-#include "host/derive/matrix_make.h"
 #include "host/emit/emit.h"
+#include "host/image/matrix_make.h"
 #include "host/number/double_double.h"
 
 #include "command.h"

@@ -4,8 +4,8 @@
 #include "test.h"
 
 #include "host/base/alloc.h"
-#include "host/derive/lower.h"
 #include "host/engine/engine.h"
+#include "host/image/lower.h"
 
 #include "command.h"
 #include "derived.h"

@@ -6,7 +6,7 @@
 
 #include "host/cli/commands.h"
 #include "host/derive/lagrange.h"
-#include "host/derive/lower.h"
+#include "host/image/lower.h"
 
 #include "command.h"
 #include "derived.h"

@@ -2,8 +2,8 @@
  * double must stay the same, the number of operations must stay within its limit, and the bias from rounded
  * constants must fall. Generated mechanisms are tested with other states than those of the search, and with another
  * evaluator. */
-#include "host/derive/program.h"
 #include "host/image/op_list_scaling.h"
+#include "host/image/program.h"
 
 #include "command.h"
 #include "derived.h"

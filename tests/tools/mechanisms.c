@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
+#include "host/image/image_make.h"
 #include "host/lang/model.h"
 #include "tests/host/mechanism.h"
 

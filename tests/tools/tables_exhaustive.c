@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
+#include "host/image/image_make.h"
 #include "host/lang/builtin.h"
 #include "tests/host/table_check.h"
 

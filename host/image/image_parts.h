@@ -1,6 +1,6 @@
 /* image_parts.h: copying names, units and places of the language into an image. For host/derive only. */
-#ifndef DERIVE_IMAGE_PARTS_H
-#define DERIVE_IMAGE_PARTS_H
+#ifndef IMAGE_IMAGE_PARTS_H
+#define IMAGE_IMAGE_PARTS_H
 
 #include "host/image/image.h"
 #include "host/lang/model.h"

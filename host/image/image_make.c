@@ -1,16 +1,16 @@
 /* image_make.c: the image, and its variants with other roundings of folded numbers. */
-#include "host/derive/image_make.h"
+#include "host/image/image_make.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "core/contact.h"
-#include "host/derive/diagnostic_expressions.h"
-#include "host/derive/image_parts.h"
 #include "host/derive/lagrange.h"
-#include "host/derive/matrix_make.h"
-#include "host/derive/program.h"
+#include "host/image/diagnostic_expressions.h"
+#include "host/image/image_parts.h"
+#include "host/image/matrix_make.h"
 #include "host/image/op_list_scaling.h"
+#include "host/image/program.h"
 #include "host/lang/lexer.h"
 #include "host/lang/value.h"
 #include "host/lang/words.h"

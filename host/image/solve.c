@@ -2,7 +2,7 @@
  * differ in scale, in the order of elimination, in the angle that is evaluated first, and in the unknowns that are
  * eliminated symbolically. These unknowns have a constant diagonal entry, such as a carriage's total mass. Cramer's
  * rule solves the last two or three equations with one division. */
-#include "host/derive/solve.h"
+#include "host/image/solve.h"
 
 #include <math.h>
 #include <stdlib.h>

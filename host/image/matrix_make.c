@@ -1,5 +1,5 @@
 /* matrix_make.c: the whole step of a linear scene as one matrix. */
-#include "host/derive/matrix_make.h"
+#include "host/image/matrix_make.h"
 
 #include <math.h>
 #include <stddef.h>

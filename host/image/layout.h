@@ -1,12 +1,12 @@
 /* layout.h: the components of a state, and the mapping from symbols to them. */
-#ifndef DERIVE_LAYOUT_H
-#define DERIVE_LAYOUT_H
+#ifndef IMAGE_LAYOUT_H
+#define IMAGE_LAYOUT_H
 
 #include "core/scene.h"
 #include "host/derive/conserve.h"
 #include "host/derive/equations.h"
-#include "host/derive/lower.h"
 #include "host/image/image.h"
+#include "host/image/lower.h"
 
 /* === noise on outputs ========================================================================= */
 

@@ -1,6 +1,6 @@
 /* lower.h: conversion of polys to operations: evaluation and reuse of sines, factoring, sharing. */
-#ifndef DERIVE_LOWER_H
-#define DERIVE_LOWER_H
+#ifndef IMAGE_LOWER_H
+#define IMAGE_LOWER_H
 
 #include "host/algebra/poly.h"
 #include "host/image/op_list.h"

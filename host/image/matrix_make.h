@@ -1,10 +1,10 @@
 /* matrix_make.h: the whole step of a linear scene as one constant matrix (core/step/matrix_step.h). */
-#ifndef DERIVE_MATRIX_MAKE_H
-#define DERIVE_MATRIX_MAKE_H
+#ifndef IMAGE_MATRIX_MAKE_H
+#define IMAGE_MATRIX_MAKE_H
 
 #include "host/derive/equations.h"
-#include "host/derive/image_parts.h"
 #include "host/image/image.h"
+#include "host/image/image_parts.h"
 #include "host/number/double_double.h"
 
 /* === an affine right-hand side ================================================================ */

@@ -1,4 +1,4 @@
-#include "host/derive/layout.h"
+#include "host/image/layout.h"
 
 #include <string.h>
 

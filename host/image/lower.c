@@ -1,5 +1,5 @@
 /* lower.c: conversion of polys to operations: half angles, factoring, sharing. */
-#include "host/derive/lower.h"
+#include "host/image/lower.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* program.c: the lists of an instance: step, contacts, ledger, outputs. */
-#include "host/derive/program.h"
+#include "host/image/program.h"
 
 #include "core/contact.h"
 #include "core/hash.h"
 #include "core/step/ledger_step.h"
 #include "host/derive/equations.h"
-#include "host/derive/tables.h"
+#include "host/image/tables.h"
 #include "host/lang/value.h"
 #include "host/lang/words.h"
 

@@ -1,6 +1,6 @@
 /* diagnostic_expressions.h: expressions of image_diagnostics (host/image/image.h). */
-#ifndef DERIVE_DIAGNOSTIC_EXPRESSIONS_H
-#define DERIVE_DIAGNOSTIC_EXPRESSIONS_H
+#ifndef IMAGE_DIAGNOSTIC_EXPRESSIONS_H
+#define IMAGE_DIAGNOSTIC_EXPRESSIONS_H
 
 #include "host/derive/equations.h"
 #include "image_parts.h"

@@ -1,6 +1,6 @@
 /* image_make.h: construction of the image (host/image/image.h) of an instance from its equations. */
-#ifndef DERIVE_IMAGE_MAKE_H
-#define DERIVE_IMAGE_MAKE_H
+#ifndef IMAGE_IMAGE_MAKE_H
+#define IMAGE_IMAGE_MAKE_H
 
 #include "host/derive/equations.h"
 #include "host/image/image.h"

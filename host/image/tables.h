@@ -1,6 +1,6 @@
 /* tables.h: look-up tables for functions of one angle. They replace the sines and divisions of a step's list. */
-#ifndef DERIVE_TABLES_H
-#define DERIVE_TABLES_H
+#ifndef IMAGE_TABLES_H
+#define IMAGE_TABLES_H
 
 #include "host/image/image.h"
 #include "host/image/op_list.h"

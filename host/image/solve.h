@@ -1,9 +1,9 @@
 /* solve.h: the operation list for the highest derivatives, M(q) q'' = f, solved for q''. */
-#ifndef DERIVE_SOLVE_H
-#define DERIVE_SOLVE_H
+#ifndef IMAGE_SOLVE_H
+#define IMAGE_SOLVE_H
 
 #include "host/algebra/poly.h"
-#include "host/derive/lower.h"
+#include "host/image/lower.h"
 
 /* === the equations for the highest derivatives, M(q) x = f ==================================== */
 

@@ -1,10 +1,10 @@
 /* program.h: an instance as operation lists, with every parameter folded in. */
-#ifndef DERIVE_PROGRAM_H
-#define DERIVE_PROGRAM_H
+#ifndef IMAGE_PROGRAM_H
+#define IMAGE_PROGRAM_H
 
-#include "host/derive/image_parts.h"
-#include "host/derive/layout.h"
-#include "host/derive/solve.h"
+#include "host/image/image_parts.h"
+#include "host/image/layout.h"
+#include "host/image/solve.h"
 
 /* The ledger has an entry for each cause that changes a momentum p_i = dL/dq_i' or the energy. Causes for p_i are
  * dL/dq_i, generalized forces, dampers and contacts (Lagrange's equations). Causes for the energy are forces, dampers,

@@ -1,5 +1,5 @@
 /* tables.c: a step's list as sums of products of rates, inputs and reals, with functions of angles as coefficients. */
-#include "host/derive/tables.h"
+#include "host/image/tables.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "core/step/table.h"
 #include "host/base/alloc.h"
-#include "host/derive/lower.h"
+#include "host/image/lower.h"
 #include "host/number/ratio.h"
 
 /* === functions of one angle and their slopes, at any angle ==================================== */
