@@ -93,7 +93,7 @@ static size_t all_reals(const wh_scene *scene) {
     return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
 }
 
-/* True if `memory` is aligned for every object of a state, as for a member of a struct. */
+/* True if `memory` is aligned for every object of a state. */
 static bool is_aligned(const void *memory) {
     struct behind_a_byte {
         char byte;

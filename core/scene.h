@@ -111,7 +111,7 @@ struct wh_scene {
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK or an error:
- * - WH_E_ARGUMENT: the state is zeroed, or wh_scene_start() has refused it.
+ * - WH_E_ARGUMENT: state->real is NULL, as in a zeroed state or after an error of wh_scene_start().
  * - WH_E_DIVERGED, WH_E_UNDEFINED, WH_E_SINGULAR: the last good state is kept, and state->fault is set. A repeated call
  * with the same inputs fails with the same error. */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);

@@ -37,7 +37,7 @@ typedef struct wh_pulses {
     wh_real bound_radps; /* set by the caller: limit on the speed between two pulses; 0: no limit */
     wh_real window;      /* set by the caller: fraction of a turn by which a pulse may be early */
     wh_real climb_radps2; /* set by the caller: limit on the rise of the turns' speed */
-    /* max(0, rise of the turns' speed at the last pulse - rise that climb_radps2 allows) */
+    /* rise of speed.turn_radps at the last pulse, minus the rise that climb_radps2 allows; 0 if negative */
     wh_real climb_radps;
     wh_real climb_before_radps; /* climb_radps at the previous pulse */
     unsigned fast;              /* number of successive intervals with a speed above bound_radps */

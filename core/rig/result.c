@@ -107,7 +107,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* The ripples E and A (turn_angle.h) raise the mean of the squared speed over the angle. */
+    /* Ripples E and A (turn_angle.h) raise the squared speed's mean over the angle. */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -270,7 +270,7 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
 }
 
-/* Returns the error of the ripple, rad. The force's second order, divided by the first, has twice this error. */
+/* Returns the error of merge->ripple_rad, in rad, estimated from merge->second_N[]. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {

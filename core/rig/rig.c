@@ -149,7 +149,7 @@ static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t
     return starts ? WH_TRIP_FASTER : trip;
 }
 
-/* === conditions of orders ==================================================================== */
+/* === reasons to refuse an order =============================================================== */
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
                                    const wh_rig_inputs *inputs) {

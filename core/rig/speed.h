@@ -33,9 +33,10 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 /* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in the order of time. Returns false if the pulse is
  * rejected, because it would need a speed above impossible_radps.
  *
- * If only one pulse is lost, `quarter` goes on. If a pulse is more than a quarter turn late, `lost` rises by 2, and
- * `quarter` restarts. turn_radps stays valid after one such gap. After two gaps in succession, the speed is unknown.
- * Sensors in the wrong order, or a rotor turning backwards, cause such a gap each turn. */
+ * If a pulse is more than a quarter turn late, `lost` rises by 2, and `quarter` restarts. turn_radps stays valid after
+ * one restart. After two restarts in succession, `known` is false. If one sensor gives two pulses in succession without
+ * a restart, `lost` rises by 1, and `quarter` by 4. If the sensors are swapped, or the rotor turns backwards, `quarter`
+ * restarts in each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
 /* Returns the seconds since the last accepted pulse, or 0 without one. */

@@ -35,7 +35,6 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* These swings last longer than small swings; the factor is a guess. */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
@@ -70,7 +69,7 @@ void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing) {
     }
 }
 
-/* mean of 4 sin^2(q/2) over q = 0 to 90 deg: squared speed lost, divided by g */
+/* mean of 4 sin^2(q/2) over q = 0 to 90 deg */
 #define FALLEN WH_R(0.727)
 
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
@@ -94,7 +93,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
     x[WH_FREE_GRAVITY] = gravity;
-    /* Each quarter swing takes friction/gravity from the amplitude, which begins near 2.3 sine. */
+    /* The amplitude begins near 2.3 * sine. Each quarter swing reduces the amplitude by friction / gravity. */
     x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_FREE_Q] =

@@ -56,7 +56,6 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     const wh_real sine = tangent * cosine;
     const wh_real lambda = small_arc(sine);
     angle->twice_rad = WH_R(0.125) * yields / mean * cosine;
-    /* 2 (base + phi) + lambda of turn_angle.h is 2 u + 2 (gamma - psi) + lambda. */
     const wh_wave turned = wh_wave_of(WH_R(2.0) * (config->gravity_rad - angle->lag_rad) + lambda);
     angle->second_sine -= angle->twice_rad * turned.cosine;
     angle->second_cosine -= angle->twice_rad * turned.sine;

@@ -73,7 +73,7 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Call this before a step. Stores in w->step the energy's change by each input changed since the last step. */
+/* Call this before a step. If inputs have changed, w->step[] gets one energy change for each input. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);

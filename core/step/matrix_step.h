@@ -54,11 +54,11 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
 }
 
 /* Does one step of h by the operation list `matrix`, a wh_accel_fn that does not use the phases. In a second-order
- * scene, `rates_at` is the index of the first rate in the reals. The list gives, in this order:
+ * scene, `rates_at` is the index of the first rate in the reals. The list's results are, in this order:
  *
- *      angles      the mean rate of each angle over the step
- *      reals       each real after the step; if compensated, the change of each real
- *      reals       only in float and if compensated: an addend for each carry, because constants are rounded
+ *      [angles]    mean rate of each angle over the step
+ *      [reals]     the reals after the step; if compensated, the changes of the reals
+ *      [reals]     if compensated, and in float: addends for the carries
  *
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
  * state unchanged. */

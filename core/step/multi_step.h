@@ -18,8 +18,7 @@
 #endif
 #endif
 
-/* Does `steps` > 0 steps by one(), on a local copy of the state that gcc can keep in registers. Returns as
- * wh_scene_steps() does. */
+/* Calls one() `steps` times, or until one() fails; steps > 0. Returns what wh_scene_steps() returns. */
 WH_INLINE wh_status wh_multi_step(const wh_scene *of,
                                   wh_status (*one)(const wh_scene *of, wh_state *state),
                                   unsigned angles, unsigned reals, bool compensated,

@@ -72,7 +72,7 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    /* The pairs at the step's begin. If `precise`, .sine_rest and .cosine_rest include the rotations done. */
+    /* The pairs at the step's begin. If `precise`, rotations change .sine_rest and .cosine_rest. */
     wh_sine_parts parts[WH_WAVES];
     wh_wave at[WH_WAVES]; /* the pairs after `turns` rotations by the angle d */
     /* If `precise`, the last rotation's increments of the pairs. Otherwise the pairs before the last rotation. */

@@ -180,8 +180,7 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns the correction of h^2 / by->parts, s^2, for two roundings: of `part` = h / by->parts, and of h in the stages.
- * If the second rounding were not corrected, the energy would drift (docs/dev/numerics.md). */
+/* Returns what the low parts of `h` and `part` add to h.high * part.high, in s^2 (docs/dev/numerics.md). */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
@@ -202,7 +201,6 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
     return phases.high * part.low + part.high * phases.low;
 }
 
-/* Adds pulled[i] (wh_second_end()) times wh_turn_short() or wh_square_short() to each position's carry. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {

@@ -30,8 +30,8 @@
 #define WH_TABLE_LINEAR 2U
 #define WH_TABLE_CUBIC 4U
 
-/* If WH_TABLE_FOLD is 1 and every table of a list is even or odd, the list stores half a turn. Results have the same
- * bits. Folding costs at most 1 % of a step's cycles without an FPU, but 14 % with an FPU. */
+/* 1: a list with only even or odd tables stores half a turn of each table. The results do not change by any bit.
+ * Without an FPU, folding costs at most 1 % of a step's cycles; with an FPU, 14 %. */
 #ifndef WH_TABLE_FOLD
 #if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
                    (defined(__riscv) && !defined(__riscv_flen)))

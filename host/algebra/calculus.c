@@ -318,7 +318,6 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    /* 2.0: poly_power() does not expand a square such as (x - b)^2 */
     substitution s = {replace, context, 2.0, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);

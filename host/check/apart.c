@@ -12,7 +12,6 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* The holds' values are intended, and no errors, if each nonzero |value| is at least OFF_MOST * terms(). */
 #define OFF_MOST 0.5
 /* A hold's condition may become false just after the start, so it is evaluated SOON steps later. */
 #define SOON 1e-6

@@ -38,7 +38,7 @@ typedef struct books {
     spread *rate;       /* [count] */
     spread *push;       /* [count] momenta without rateless[] */
     bool *frame;        /* [count] the mean of the momentum depends on the reference frame */
-    double *rateless;   /* [count] terms of a momentum with even order in the rates */
+    double *rateless;   /* [count] the part of each momentum that is even in the rates */
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], divided by the unit round-off */
     double size_J;      /* largest |T| + |V| */
@@ -67,9 +67,10 @@ void books_close(books *b);
 void books_enter(books *b, const engine_kind *kind, const void *run);
 /* The residual of the energy: its change since the start, minus the work of inputs and losses; J. */
 double books_left_J(const books *b);
-/* Root mean square of a momentum minus rateless[], over the run. If frame[] is set, returns the standard deviation. */
+/* RMS over the run of (momentum - rateless[]); if frame[] is set, the standard deviation of this difference. */
 double books_momentum(const books *b, int unknown);
-/* Largest swing of T or V, or 0.5 * books_momentum() * (swing of a rate). A swing is sqrt(8) standard deviations. */
+/* Returns the largest swing of `kinetic`, of `stored`, or of 0.5 * books_momentum() * rate[] of a coordinate. A swing
+ * is sqrt(8) standard deviations. */
 double books_swing_J(const books *b);
 /* Samples rounding_J, computing_J and lost_J at the present state. Returns rounding_J plus the round-off of size_J. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run);

@@ -4,7 +4,7 @@
  * losses and contacts; zero for an exact solution. The ratio is |residual| divided by the largest entry of the balance.
  * docs/dev/events.md#the-energy-residual lists the entries, and the allowance for round-off.
  *
- * With --matrix exact the steps have no error, but integrating the powers has one. Its bound counts as round-off.
+ * With --matrix exact, only the integration of the powers has an error. rounding_J includes the bound on this error.
  * With --stabilized the residual is the larger of two values: with and without the energy corrections. */
 #ifndef CHECK_ENERGY_RESIDUAL_H
 #define CHECK_ENERGY_RESIDUAL_H

@@ -43,10 +43,10 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* FINDING_ACCURACY: the error of a coordinate or rate exceeds RUN_CHECKS_TOLERANCE of its range in the run's first
- * half. Chaotic motions are exempt, because no smaller step helps. A motion counts as chaotic if two conditions hold.
- * The error exceeds RUN_CHECKS_EARLY_TOLERANCE only after RUN_CHECKS_BEGIN * (end of the run). The error exceeds
- * RUN_CHECKS_TOLERANCE before RUN_CHECKS_GROWS times that time. */
+/* FINDING_ACCURACY: let |error| / (range of the coordinate or rate) exceed RUN_CHECKS_EARLY_TOLERANCE at the time
+ * early_s, and RUN_CHECKS_TOLERANCE at until_s. The finding is reported if until_s is in the run's first half. Chaotic
+ * motions are exempt, because no smaller step helps. A motion counts as chaotic if early_s > RUN_CHECKS_BEGIN * (end of
+ * the run), and until_s < RUN_CHECKS_GROWS * early_s. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
@@ -57,8 +57,8 @@ extern const finding_row finding_rows[FINDINGS];
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
 /* FINDING_ENERGY: limit of |residual| / largest_J before the run's end. A smaller ratio is invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* FINDING_EVENTS exempts the last bounces before a rest. RUN_CHECKS_RESTS: largest sum of |energy changes|, as a
- * part of largest_J. RUN_CHECKS_RESTS_STEPS: largest (steps with too many events - 1) / (steps of the run). */
+/* FINDING_EVENTS is not reported if at most 1 + RUN_CHECKS_RESTS_STEPS * (steps of the run) steps have too many events,
+ * and the sum of |energy changes| in these steps is at most RUN_CHECKS_RESTS * largest_J. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

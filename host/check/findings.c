@@ -487,7 +487,7 @@ void findings_say(FILE *out, const run_checks *v, bool fails) {
     }
     if ((fails || (v->warned & ~FINDING_OF_SCENE) != 0 || is_reported(v, FINDING_MASS)) &&
         !say_cause(out, v)) {
-        if (fails) { /* no remedy is tried for the limit of --strict */
+        if (fails) {
             fputs("hint: try a smaller --step\n", out);
         } else {
             say_remedy(out, v);

@@ -15,8 +15,8 @@
 enum { HALVINGS = 56 };  /* enough to locate a sign change on the path, down to round-off */
 #define FARTHER 2.5      /* if samples show only round-off, their distances grow by this factor */
 enum { TURNS_MOST = 4 }; /* an expression with at least this many sign changes is round-off */
-#define NEAR 0.2         /* sign tests: largest distance / (distance to the part's end) */
-#define FURTHER 1.4      /* ratio of successive distances at which the sign is tested */
+#define NEAR 0.2
+#define FURTHER 1.4 /* ratio of successive distances at which the sign is tested */
 /* A value may touch zero if its tangents at the two ends cross below TOUCHES times the smaller end value. */
 #define TOUCHES 1e-3
 /* SECTIONS golden sections find the minimum of a value to its last digit. */
@@ -37,9 +37,8 @@ typedef enum growth {
     GROWTH_POLE   /* steady, as at a pole */
 } growth;
 
-/* Least growth at a pole, from one distance to the next; 1/distance grows by the factor 1.71. */
-#define GROWS 1.64
-#define EVEN 1.1 /* growth is steady if its ratios differ by less than this factor */
+#define GROWS 1.64 /* must be less than GROWTH_CLOSER */
+#define EVEN 1.1   /* growth is steady if its ratios differ by less than this factor */
 
 typedef struct part {
     double low; /* shares of the path */
@@ -196,7 +195,6 @@ typedef struct spot {
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 #define LEFT 0.05 /* relative tolerance of the minimum in stands_off() */
 
-/* Is the value's minimum at the place above zero? */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
