@@ -55,7 +55,6 @@ typedef struct looker {
     double *touch; /* [4 * signs] */
 } looker;
 
-/* Growth of the values towards a place: the distance from the place decreases with k. */
 static growth growth_of(const double *value, int stride) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -625,8 +624,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* At the smallest tested distance from a place, a component differs by this share from its value at the place. */
-#define RESOLVED 2e-13
+#define RESOLVED 2e-13 /* smallest tested distance from a pole, as a share of a component */
 
 struct pole_crossing {
     const image *image;

@@ -40,8 +40,8 @@ typedef struct run_checks {
     unsigned warned; /* the warnings, as bits */
 } run_checks;
 
-/* If `of` is NULL, the checks use run_checks.own as their budget, and the caller must set loop.own to &run_checks.own.
- * All arguments must outlive the result. */
+/* All arguments must outlive the result. If `of` is NULL, the budget is the result's `own`. The loop that steps `run`
+ * (host/engine/loop.h) must count the run's operations in that budget. */
 run_checks *run_checks_open(const image *im, const engine_kind *kind, void *run, budget *of);
 /* Makes a run to its end, or to an interrupt (host/os/system.h), with all checks at any cost. `progress` may be NULL;
  * it is called with the share of completed steps. run_checks_close() ends the run. */

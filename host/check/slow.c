@@ -12,7 +12,7 @@ bool slow_component(const engine_kind *kind, const void *run, int i) {
     return off > SLOW_SHARE * span && off > least;
 }
 
-/* In float, only the angles are tested. Angles come first. */
+/* kind->unit is NULL in float and double. */
 static int components(const engine_kind *kind, const image *im, const void *run) {
     const bool held = kind->saturated != NULL && kind->saturated(run) > 0;
     return held ? 0 : im->angles + (kind->unit != NULL ? im->reals : 0);

@@ -180,7 +180,6 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* given->with becomes --with without the effects *out. *out becomes the effects that --without must name. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

@@ -21,9 +21,8 @@ typedef struct symmetry {
 
 typedef struct symmetries {
     int count;
-    /* [count] first those with conserved momenta, next those of T and V, last shifts (A = 0) of T alone */
-    symmetry *each;
-    int broken; /* number of symmetries of T that V lacks and that are not shifts */
+    symmetry *each; /* [count] first the conserved symmetries, last those with nonzero `stored` */
+    int broken;     /* number of symmetries of T that V lacks and that are not shifts */
     /* values at random states confirm that no affine symmetry of T or V is missing */
     bool complete;
     bool flat; /* T has constant coefficients: every translation and rotation is affine */

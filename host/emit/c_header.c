@@ -1,4 +1,4 @@
-/* c_header.c: a scene's header for C11 and C++11. Names differ, because no KIND in SCENE_KIND_NAME begins with
+/* c_header.c: a scene's header for C11 and C++11. The header's names are SCENE_KIND_NAME. No KIND may begin with
  * another KIND and an underscore. One enum has all enumerators, because C++20 deprecates sums of two enums. */
 #include "c_header.h"
 

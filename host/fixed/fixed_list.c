@@ -83,7 +83,7 @@ bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *error
 /* === binary points and shifts ================================================================= */
 
 enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* limits that no binary point reaches in practice */
-#define ROUNDED (1.0 - 0x1p-40)            /* so that outward rounding of 2^n costs no digit */
+#define ROUNDED (1.0 - 0x1p-40)            /* a size just above 2^n counts as less than 2^n */
 
 int fixed_point_of(double size, int digits) {
     int exponent;
@@ -206,7 +206,7 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
 /* Returns the largest left shift after which an integer of at most `size` fits into 31 binary digits. */
 static int left_of(double size) { return 31 - exponent_of(size + 1.0); }
 
-/* Chooses a product's shifts and o->bits. Returns false if no choice is within a_left and b_left. */
+/* a_left and b_left limit the left shifts of the operands a and b. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     for (; o->bits > BITS_LEAST; o->bits--) {
         const int by = a_bits + b_bits - o->bits - 32;
@@ -402,7 +402,6 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* Encloses the sine of a + ahead_rad without round-off. The caller adds SINE_OFF. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);

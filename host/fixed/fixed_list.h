@@ -13,8 +13,8 @@
  * its value. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on stderr. */
 bool fixed_ranges(const image *im, enclosure *range, bool progress, diags *errors);
 
-/* Largest numbers of binary digits. FIXED_KEPT_DIGITS: state and sums. FIXED_RESULT_DIGITS: results, of which RK4
- * adds A1 + 2 A2 + 2 A3 + A4. FIXED_DIGITS: other values. */
+/* Most binary digits of a value. FIXED_KEPT_DIGITS is for the state, sums and differences. FIXED_RESULT_DIGITS is for
+ * the list's results: six results must add up to less than 2^31. FIXED_DIGITS is for other values. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -48,11 +48,9 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has zeros + n leading zeros, with n from 0 to `spread`. Left shifts remove these zeros. If
-     * `follows`, `a` is shifted left by n more digits. Otherwise, n is subtracted from `by`. */
-    int zeros;
-    int spread;
-    bool follows;
+    int zeros;        /* FIXED_QUOTIENT: least number of leading zeros of |b| */
+    int spread;       /* FIXED_QUOTIENT: most leading zeros of |b| beyond `zeros` */
+    bool follows;     /* FIXED_QUOTIENT: the zeros of |b| beyond `zeros` shift `a` left */
     bool negated;     /* FIXED_SAME: the result is -a; FIXED_QUOTIENT: b is negative */
     const int *turns; /* FIXED_PHASE: factors, owned by the image's list */
     double offset_rad;

@@ -155,7 +155,7 @@ typedef struct image_range {
 typedef struct image_contact {
     int kind;              /* wh_contact_kind */
     const char *word;      /* word of the statement: "stop", "hold", ... */
-    const char *undefined; /* named in an error: "the restitution, or the gap, of this stop" */
+    const char *undefined; /* subject of an error: "the normal force of this friction" */
     int direction;
     int pin;
     int first_set;

@@ -63,7 +63,6 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 #define CANCELLED 1e-14  /* a sum below this, relative to its addends, counts as zero */
 #define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
 #define INDICES (MULTIPLE_MAX + 1)
-/* Largest allowed size of the products, relative to the sum of |c_k|. Large products lose digits. */
 #define GROWTH_MAX 8.0
 
 /* Compares by member, because padding bytes between a 32-bit pointer and a double are undefined. */
@@ -282,8 +281,7 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 }
 
 /* === which sines are evaluated ================================================================ */
-/* An evaluated pair of sine and cosine costs some thirty instructions. A pair for a sum, difference or double of angles
- * costs at most six if the pairs of these angles are known. So small angles come first. */
+/* A sine and cosine cost some thirty instructions with WAVE_EVALUATED, and at most six with another rule. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */

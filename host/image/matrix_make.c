@@ -192,7 +192,6 @@ enum { HALVINGS_MOST = 50 };
 /* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is below 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
-/* Sets to[states * columns] to the product of `b` and the first `states` columns of `a`. */
 static void product(const double_double *a, const double_double *b, int states, int columns,
                     double_double *to) {
     for (int i = 0; i < states; i++) {

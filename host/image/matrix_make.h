@@ -16,9 +16,8 @@ int affine_columns(const image *im);
  * that of the list's constants. Returns false without setting rates[] if the list is not affine. */
 bool affine_rates(const image *im, double_double *rates);
 
-/* Makes the matrix and its list. The rest of the image must be complete. Returns false (reported) if the image has
- * events, a ledger, tables, another method, a nonlinear term, no state, or numbers that are too large. `e` locates the
- * nonlinear term. `e` may be NULL if the lists are known to be affine. */
+/* Makes the matrix and its list. The rest of the image must be complete. Returns false, and reports the reason, if
+ * a matrix cannot step the image. `e` locates a nonlinear term. `e` may be NULL if the image is affine. */
 bool matrix_make(image_draft *d, const equations *e, diags *errors);
 
 #endif

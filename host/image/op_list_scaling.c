@@ -199,7 +199,6 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns equations for weights of the rows of `all`. The weighted sum changes raw values only at chosen uses. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;

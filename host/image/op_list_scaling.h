@@ -5,9 +5,8 @@
 
 #include "host/image/op_list.h"
 
-/* Returns the error of a finished list's results from rounding its constants to float. Operations are in double. The
- * error is a weighted root mean square of relative errors at artificial states. The reference is `like`, which
- * is `t` or a list with equal results. Returns NaN if no result can be compared. */
+/* Returns the relative error of the results of `t` after its constants are rounded to float. `t` must be finished.
+ * The reference is `like`: `t` or a list with equal results. Returns NaN if no result can be compared. */
 double op_list_bias(const op_list *t, const op_list *like);
 
 /* Returns the allowed number of additional operations: one, and one for each forty operations. */
@@ -26,11 +25,11 @@ typedef struct op_list_freedoms {
     int length; /* 3 * operations of the list */
 } op_list_freedoms;
 
-/* Returns the vectors that op_list_scale() tries. A vector multiplies at most two raw operations. */
+/* Returns the vectors that op_list_scale() tries. */
 op_list_freedoms op_list_freedoms_of(const op_list *t);
 
-/* Returns a finished list whose values are multiplied by times[3 * t->count], in the layout of a vector of
- * exponents. The factors must be positive and must change no result. */
+/* Returns a finished list with multiplied values. times[] has 3 * t->count positive factors, in the order of
+ * op_list_freedoms.exponent. The factors must change no result. */
 op_list *op_list_multiplied(const op_list *t, const double *times);
 
 #endif

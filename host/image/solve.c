@@ -139,7 +139,6 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
     return best_constant;
 }
 
-/* Solves the last equations, at most three, by Cramer's rule if they have no constant pivot. */
 static void eliminate_general(op_list *t, int n, const poly *const *of, int *mass, int *force,
                               int *solution) {
     int rows[COORDINATES_MAX];
@@ -179,9 +178,9 @@ static void eliminate_general(op_list *t, int n, const poly *const *of, int *mas
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
-/* A body on a hinge with the angle q has the equation A q'' + sum_j P_j x_j = f. A and c are constants.
- * P_j = Re(z_j exp(i c q)) is a sinusoid of q, with the quadrature P~_j = Im(z_j exp(i c q)). Elimination of q'' adds
- * -P_i P_j / A to m_ij. Only the second term of this product contains q:
+/* A body on a hinge with the angle q has the equation A q'' + sum_j P_j x_j = f. The x_j are the other unknowns.
+ * P_j = Re(z_j exp(i c q)) is a sinusoid of q, with the quadrature P~_j = Im(z_j exp(i c q)). A and c are constants.
+ * Elimination of q'' adds -P_i P_j / A to entry (i, j) of mass[]. Only the term P~_i P~_j contains q:
  *
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j */
 
@@ -189,8 +188,7 @@ static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
 }
 
-/* Returns true if q is only in angles of sines and cosines, and linear there. The second derivative of another poly may
- * exceed the limits of the algebra. */
+/* Returns true if q is only in angles of sines and cosines, and linear there. */
 static bool is_wave(algebra *a, const poly *p, const symbol *q) {
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
@@ -569,7 +567,6 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* Scales inverse[0] to 1. Scales the most frequent number of each row to 1, except in the rows of angles. */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];

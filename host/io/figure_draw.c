@@ -19,7 +19,7 @@ typedef struct figure {
     int curves;       /* curves in this panel */
     int named;        /* curves in the legend */
     bool varied;      /* the runs have changed options: omit marks of the original motion */
-    double trusted_s; /* least trusted_s of the panel's curves over time; 0: no limit */
+    double trusted_s; /* trusted time of this panel's curves; 0: no limit */
     char *plot;       /* gnuplot text of the curves */
     char *xlabel;
 } figure;

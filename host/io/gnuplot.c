@@ -25,7 +25,7 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* Octal codes hide syntax from gnuplot. XML forbids control characters and "]]>". */
+/* A word joiner (U+2060) splits "]]>", because XML forbids "]]>" in an SVG file's text. */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;

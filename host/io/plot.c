@@ -682,7 +682,7 @@ static extent quantity_extent(const panels *p, const plot_run *runs, const int *
     return e;
 }
 
-/* Lists a panel's quantities (-1: all panels), or counts a list above `most` bytes. The caller frees the text. */
+/* Panel -1 is all panels. The caller frees the text. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names;
     size_t length;

@@ -46,8 +46,8 @@ bool records_write(const records *r);
  * A wire is high while a stop rests, a hold is active, a friction sticks, or a `when` has its left side above its right
  * side. An event marks an impact or a crossing. The dump has the first WH_EVENT_LOG events of a step. */
 
-/* Sets *power: the dump's unit of time is 10^-power s. *power is at most VCD_FINEST. A run has less than 2^52 units.
- * A step has at least 1000 units if these limits allow. Returns false if no unit fits the step and the run. */
+/* Sets *power, from 0 to VCD_FINEST: the dump's unit of time is 10^-power s. Returns false if a step is
+ * shorter than this unit, or if the run has 2^52 units or more. */
 bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;

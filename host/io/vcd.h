@@ -20,8 +20,8 @@ vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digi
 /* Begins a scope for the following signals. */
 void vcd_scope(vcd *v, const char *scope);
 
-/* Adds a signal, and returns the signal's number. Call vcd_add() before vcd_settle(). The dump's name has no blanks,
- * colons or brackets. `note`: a comment, or NULL. */
+/* Adds a signal, and returns the signal's number. Call vcd_add() before vcd_settle(). Blanks and colons of `name`
+ * become underscores. Brackets of `name` are left out. `note`: a comment, or NULL. */
 int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note);
 
 /* Sets the value from this time (at least 0) on. A wire is 0 for 0, unknown for NaN, and 1 for other values. */

@@ -242,7 +242,6 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* Returns false if a name is neither a direction nor a misspelt direction. */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;

@@ -54,7 +54,7 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
 /* As check_unit(), with the number of primes of `name`. Also checks the dimension. */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for a limit of a single symbol `of`. Returns true if `of` is a parameter or no single symbol. */
+/* If `of` is a symbol and no parameter, checks the limit `value` of this symbol as check_unit(). */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif
