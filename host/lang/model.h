@@ -34,8 +34,7 @@ typedef struct symbol {
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: order of its highest derivative; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* input with a rate, or the rate: the driven coordinate that replaces the input inside a step;
-     * driven coordinate: the input; else NULL */
+    /* input: the driven coordinate that replaces the input; driven coordinate: the input; else NULL */
     const struct symbol *driven;
 } symbol;
 

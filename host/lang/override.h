@@ -8,8 +8,8 @@
 typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } override_kind;
 
 /* Reads "NAME=EXPR" or "NAME'=EXPR". EXPR needs a unit if NAME is not declared in SI. The unit needs no brackets.
- * `around`: the texts before and after the value in the hint for a missing unit, or NULL. Returns false after an error,
- * reported in a source called "<command line>". */
+ * If `around` is not NULL, the hint about a missing unit shows the value between around[0] and around[1]. Returns false
+ * after an error, reported in a source called "<command line>". */
 bool override_parse(const mechanism *of, override_kind kind, const char *text,
                     const char *const around[2], struct arena *arena, diags *diags,
                     assignment *made);

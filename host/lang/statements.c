@@ -146,7 +146,6 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === checks of a complete mechanism =========================================================== */
 
-/* If `in` is NULL, raises each state's order. If not, reports derivatives above the order. */
 static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;

@@ -16,7 +16,7 @@ char *shown_unit_name(const symbol *s, int primes);
 /* Returns the name of the SI unit of the same quantity. The caller frees it. */
 char *shown_si_name(const symbol *s, int primes);
 
-/* Returns a value as the user wrote it, such as "0.72 [lb]", or NULL. The caller frees the text. */
+/* Returns a value's source text, such as "0.72 [lb]"; NULL if the value has none. The caller frees the text. */
 char *shown_written(const expr *given);
 /* As shown_written(), for a formula. NULL for a single number, with or without a unit. */
 char *shown_formula(const expr *given);

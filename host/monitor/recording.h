@@ -36,7 +36,7 @@ typedef struct schema {
     schema_channel channel[SCHEMA_CHANNELS];
 } schema;
 
-/* Takes a console's answer. If the answer describes no channel, rate or states, changes nothing, and returns false. */
+/* Takes a console's answer about a channel, the rate or the states. Returns false if the answer has another subject. */
 bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);

@@ -172,7 +172,7 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
     return quotient;
 }
 
-/* Rounds quotient * 2^exponent, or slightly more if `rest`. The quotient's highest bit is bit 62 or 63. */
+/* Returns the double nearest to quotient * 2^exponent, as its bits. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* exponent of the highest bit */

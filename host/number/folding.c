@@ -33,7 +33,6 @@ static uint64_t mixed(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/* Returns by how many doubles an inexact result is moved: up if > 0. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -118,7 +117,7 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* The function's argument is only round-off. `at_zero`: the function's value at 0. */
+/* Records the loss in a function whose argument is only round-off. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -143,7 +142,7 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* FOLDING_OTHER moves no product or quotient: in (K + k)/K, two moves could cancel. */
+/* FOLDING_OTHER does not change quotients: a quotient's change could cancel a sum's change. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }

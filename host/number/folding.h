@@ -43,8 +43,8 @@ double folding_quotient(double x, double y);
 double folding_power(double base, double exponent);
 /* A sine, cosine or tangent that is only round-off, such as cos(90 deg), is recorded in folding.rest. */
 double folding_call(function_id function, double x, double y);
-/* Returns true if |left| <= part * size, for a sum `left` of terms that are about as large as `size`. Records a loss if
- * the result is true, but |left| is larger than round-off. In any way except FOLDING_NEAREST, returns left == 0. */
+/* `left` is a sum of terms about as large as `size`. If folding.way is FOLDING_NEAREST, returns |left| <= part * size.
+ * If not, returns left == 0. A true result with |left| above round-off sets folding.lost to 1. */
 bool folding_cancels(double left, double size, double part);
 /* folding_cancels() for x - y, with the larger absolute value as `size`. */
 bool folding_same(double x, double y, double part);

@@ -36,10 +36,8 @@ typedef struct whole_ratio {
 } whole_ratio;
 
 /* Returns the fraction that `value` probably was before a conversion of units and a rounding to double: 11/10000 for
- * 0.0011000000000000001, and 1/44100 for the double nearest to 1/44100. Candidates are the fraction of least
- * denominator with a relative error below 2^-51, and the shortest decimal with a relative error of at most 2^-52. The
- * decimal is returned if it has n <= 15 digits, and numerator * denominator of the fraction has at least n digits.
- * Values <= 0 give 0. Larger values are limited to RATIO_LEAST and RATIO_MOST. */
+ * 0.0011000000000000001, and 1/44100 for the double nearest to 1/44100. The fraction's relative error is below 2^-51.
+ * If `value` <= 0, returns 0. Limits positive values to the range from RATIO_LEAST to RATIO_MOST. */
 whole_ratio ratio_of(double value);
 
 /* Sets *count to whole / part, rounded to the nearest, ties down. Returns false above 2^63. `part` must not be 0. */

@@ -53,8 +53,8 @@ static void read_run(const going *g) {
     }
 }
 
-#define LITTLE 1e-3 /* least range, as a part of a larger value or range */
-#define STILL 1e-9  /* range in SI instead of 0, because no tube can prove an error of 0 */
+#define LITTLE 1e-3
+#define STILL 1e-9 /* assumed range of a state that is always 0, in SI units */
 
 static const image_unit *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
@@ -160,7 +160,6 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     return count;
 }
 
-/* Returns false if the tube ends. */
 static bool go_on(going *g) {
     const image *im = g->request->image;
     const double left_s = 1.001 * ratio_times(g->held->run_steps - g->done, im->step);

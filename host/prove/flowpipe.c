@@ -179,7 +179,6 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* radius[i]: extent along axis i of the generators with index >= `from` */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {

@@ -53,7 +53,6 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the let with the longest value such that value * *ratio is p or, unless `whole`, a part of p; else NULL. */
 static const let_row *show_let(const show *s, const poly *p, bool whole, double *ratio) {
     let_row *best = NULL;
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
@@ -744,7 +743,6 @@ static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     return key;
 }
 
-/* The part terms * key of a sum. `key` is a product of rates and accelerations. */
 typedef struct collected {
     const poly *key;
     const poly *terms;

@@ -639,7 +639,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divides *top and *bottom by their common factors. The factor 0.739... keeps terms of the sum from cancelling. */
+/* The factor 0.739... prevents terms of *top and *bottom from cancelling in `both`. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);

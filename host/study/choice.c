@@ -93,7 +93,7 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
 /* Assumed cost of an evaluation in an uncounted number type: low, so that choice_make() tries the type. */
 #define UNTRIED 1e-3
 
-/* each[number type]: cost of an evaluation, 0 if not counted yet. `last` is the last counted row. */
+/* Predicts the cost of uncounted rows from each[number type], the cost of an evaluation. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {

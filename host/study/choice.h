@@ -1,4 +1,4 @@
-/* choice.h: the fastest and the smallest row of a table (price_table.h) within limits of error, load, flash and RAM. */
+/* choice.h: choice of rows of a table (price_table.h) by limits of error, load, flash and RAM. */
 #ifndef STUDY_CHOICE_H
 #define STUDY_CHOICE_H
 
@@ -20,14 +20,14 @@ typedef struct choice_request {
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of RAM plus stack; 0: no limit */
-    bool counts;         /* chosen rows will be counted; uncounted upper bounds may exceed limits */
+    bool counts;         /* the cost of chosen rows will be measured, see choice_counted() */
     const char *prices;  /* the source of the prices, in words */
 } choice_request;
 
 /* A row compared with the limits. */
 typedef struct choice_row {
     int row;      /* index of the row in the table, or -1 */
-    double worst; /* cycles (instructions if unknown) of the longest step, per simulated second */
+    double worst; /* cycles (if known) or instructions of the longest step / length of a step */
     double load;  /* computing time of the longest step / simulated time of a step; 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */
@@ -58,7 +58,7 @@ measured_end choice_counted(trials *t, table *made, const choice_request *w, cho
 /* Prints the fastest and the smallest row. If no row is within the limits, prints limits that are high enough. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c);
-/* Prints the fastest and the smallest row as one JSON object (schema: docs/warnings.md). `status`: exit status. */
+/* Prints the rows CHOICE_FASTEST and CHOICE_SMALLEST as a JSON object (docs/warnings.md). `status`: exit status. */
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, int status);
 

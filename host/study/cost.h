@@ -169,7 +169,7 @@ enum { COST_COLUMNS = 15 };
 /* Cuts a row at its commas outside quotes. Returns false if its number of columns is not `columns`. */
 bool cost_cut(char *row, char **column, int columns);
 
-/* A row of counts has `columns` columns, the last three in bytes: flash, RAM, stack. Others: column indices. */
+/* The number of a row's columns, and five column indices. The last three columns are flash, RAM and stack, in bytes. */
 typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;

@@ -82,8 +82,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 #define KNOWN_BY 1e-6
 /* An unknown column is only round-off if its largest value is this many times larger in float than in double. */
 #define ROUGHER 0x1p15
-/* Least off / largest of a column, for round-off that the two runs share. */
-#define SHARED (16.0 * DBL_EPSILON)
+#define SHARED (16.0 * DBL_EPSILON) /* round-off in both runs, as a part of a column's `largest` */
 #define EVENTS 3.0 /* contacts multiply the evaluations of a step by about this factor */
 
 /* --- two runs and their agreement ------------------------------------------------------------------*/
@@ -153,7 +152,6 @@ static bool measure(reference *r, const computed *other, int until, int column) 
     return known;
 }
 
-/* Decides which columns count. If a column is not known, computes *rough, the run in float. */
 static void weigh(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   computed *rough) {
     const int until = r->records < 0 ? 0 : r->records;

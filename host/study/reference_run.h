@@ -1,6 +1,5 @@
-/* reference_run.h: a run in double with short steps and compensated sums, with which priced runs are compared. A second
- * run with twice the step estimates the reference's error. The estimate omits errors that the two runs share: those of
- * operations, sines and event search. */
+/* reference_run.h: a reference run in double with short steps and compensated sums. A second run with twice the step
+ * estimates the reference's error. The estimate omits the errors of operations, sines and event search. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -66,7 +65,7 @@ typedef struct deviation_pace {
 } deviation_pace;
 
 typedef struct deviation_of_what {
-    int column;     /* the compared column; -1: all with `counts`, errors as parts of `largest` */
+    int column;     /* the compared column; -1: all columns with reference_column.counts */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 

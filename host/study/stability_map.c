@@ -43,7 +43,6 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* If the step varies along a row of the map, `range` comes from the first run of the row. */
 typedef struct row_runs {
     const map_request *request;
     stability_map *map;

@@ -48,8 +48,8 @@ void subsets_close(subsets *s);
 /* Runs the full scene, and for each effect the scene without that effect. False, reported: the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Leaves out every combination of acting effects. If more than SUBSETS_ALL_MOST act, sets *greedy and leaves out one
- * more effect at a time. Returns the subset within the limits with the fewest effects; if several, the cheapest one. */
+/* Runs the subsets of the acting effects. If more than SUBSETS_ALL_MOST effects act, runs only some subsets, and sets
+ * *greedy to true. If subsets_keeps() is true for several subsets, returns the one with the fewest effects. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif

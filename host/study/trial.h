@@ -87,7 +87,7 @@ typedef struct trials {
     image **image; /* [points] images of the references */
     reference **reference; /* [points] */
     int worst;             /* the point with the worst reference */
-    int records;           /* number of records after the start trusted in every reference */
+    int records;           /* number of compared records after the start */
     deviation_of_what what;
     double tolerated;    /* with --of: errors up to this, in trial_unit(), are always usable */
     bool reliable;       /* all references are reliable */
@@ -115,8 +115,8 @@ void trial_end(trials *t);
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Estimated operations of trial_run(), without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* Returns the setting's cost at the most expensive point. Sets *own to true if setting_is_own() is true and the
- * scene does not refuse the setting with this step. A fixed-point setting needs a run to find ranges. */
+/* Returns the setting's cost at the most expensive point. Sets *own to false if setting_is_own() is false, or
+ * if the scene does not support the setting. */
 cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own);
 
 const char *trial_place(const trials *t, int point);
