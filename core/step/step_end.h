@@ -180,7 +180,7 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns what the low parts of `h` and `part` add to h.high * part.high, in s^2 (docs/dev/numerics.md). */
+/* Returns h.high * part.low, in s^2. Adds a correction if stages leave out h.low (docs/dev/numerics.md). */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
