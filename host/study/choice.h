@@ -27,7 +27,7 @@ typedef struct choice_request {
 /* A row compared with the limits. */
 typedef struct choice_row {
     int row;      /* index of the row in the table, or -1 */
-    double worst; /* cycles (if known) or instructions of the longest step / length of a step */
+    double worst; /* cycles (if known) or instructions of the longest step / step length, 1/s */
     double load;  /* computing time of the longest step / simulated time of a step; 0: unknown */
     double load_most;
     unsigned fails;   /* bits: limits that the row exceeds */
