@@ -83,9 +83,9 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 /* Returns a hash of steps, saturations, angles and reals, equal on all machines; 0 for a state that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* Convert in floating point; no step calls these functions. wh_fixed_of() rounds to the nearest integer, ties away from
- * zero. A value beyond low..high gives the nearer end, and NaN gives `low`. NaN increments *saturated, and so does a
- * scaled value that is beyond an end by more than 1 (float: more than 1 plus the end's round-off). */
+/* Convert in floating point; no step calls these functions. wh_fixed_of() rounds value 2^bits to the nearest integer,
+ * ties away from zero, and limits the integer to low..high. NaN gives `low`. *saturated increases for NaN, and if value
+ * 2^bits is beyond low..high by more than 1 (float: 1 plus round-off). */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

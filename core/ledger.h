@@ -30,14 +30,14 @@ typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_rea
 struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *powers;  /* result[smooth]: time derivative of each smooth entry */
-    wh_levels_fn *levels; /* result[wh_ledger_level_count(form)] */
+    wh_levels_fn *levels; /* values of the accounts: level[wh_ledger_level_count(form)] */
     /* Replaces `powers` if an entry depends on a turn angle itself, not only on its sine and cosine. Else NULL. */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] index of each smooth entry's account */
     const uint8_t *input;   /* [inputs] index in state->input of each input that enters L */
     uint16_t smooth;        /* number of smooth entries */
     uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
-    uint8_t accounts;       /* reals after entries: 2 per account, 1 per input, 1 if stabilized */
+    uint8_t accounts;       /* stored reals: 2 per account, 1 per input, 1 if stabilized */
     uint8_t coordinates;    /* number of integrated coordinates */
     uint8_t angles;         /* number of coordinates stored as turn angles; they come first */
     uint8_t inputs;

@@ -1,5 +1,4 @@
-/* Adafruit Feather STM32F405 Express with a 12 MHz crystal. Pins of the headers: D6: console output. D5: console input.
- * SCK: PWM. MISO: enable. A2: stop, driver's fault. A1, RX: slot sensors. A4: load cell. A5: supply. */
+/* Adafruit Feather STM32F405 Express with a 12 MHz crystal. Its wiring is in docs/boards.md. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 

@@ -1,5 +1,4 @@
-/* Netduino Plus 2: STM32F405RG with a 25 MHz crystal. Pins of the headers: D1: console output. D0: console input.
- * D13: PWM. D12: enable. D9: stop, driver's fault. D8, D3: slot sensors. A0: load cell. A1: supply. */
+/* Netduino Plus 2: STM32F405RG with a 25 MHz crystal. Its wiring is in docs/boards.md. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 

@@ -6,9 +6,8 @@
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the board has a cycle counter (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
- * If METHOD ends in "-multistep", each interval has STEPS_A_CALL steps. Interval 0 is empty. For small memories,
- * BENCH_SMALL=1 omits all functions except wh_sincos(), and the lines "silicon". On a board, an interval includes the
- * call; callgrind counts only the called function. */
+ * NUMBER is float or double. If METHOD ends in "-multistep", each interval has STEPS_A_CALL steps. Interval 0 is empty.
+ * On a board, an interval includes the call; callgrind counts only the called function. */
 #include "boards/programs/counted.h"
 #include "boards/programs/step_cycles.h"
 #include "core/function.h"

@@ -1,10 +1,10 @@
 /* worst.c: the largest number of instructions of a step over random states, for each scene with contacts.
  *
  * Each scene makes WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps, the state and the inputs become
- * random. The counter reports one number for each scene and seed (count_plugin.c, every=WORST_STEPS). Prints for each
- * scene one line "declared", and the lines "count" of bench.c:
+ * random. The counter reports one number for each scene and seed (count_plugin.c, every=WORST_STEPS). The program
+ * prints lines "count", as bench.c does, and for each scene two limits of contact.h:
  *
- *     declared NAME EVALUATIONS SIGNALS    declared limits of evaluations in one step (contact.h) */
+ *     declared NAME WH_CONTACT_EVALUATIONS WH_CONTACT_SIGNALS */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 

@@ -21,7 +21,7 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* Time from the middle of 64 loads to the interrupt: 31.5 periods, and 5 us from the last load to the interrupt. */
+/* Time from the middle of the 64 load conversions to the interrupt, which comes 5 us after the last load. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
 /* highest clock of the converter (STM32F405's data sheet, table 67) */

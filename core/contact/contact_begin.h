@@ -4,8 +4,7 @@
 
 #include "contact_resolve.h"
 
-/* Finds the touching stops and the holds with a true condition. *still gets the contacts at rest, *moving the closing
- * stops and the holds in motion, as bits. Stops in `pushed` (bits) count as touching. work->law must belong to `s`. */
+/* Finds, as bits, the contacts that act: at rest (*still) or in motion (*moving). w->law must be up to date. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,

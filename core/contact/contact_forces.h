@@ -108,9 +108,8 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Applies impulses to rate[] and adds the impulses to impulse[forced]. Contacts in `set` (bits) get J_k q' = target[k].
- * Stops in `beside` (bits) and the remaining active stops and holds get J_k q' = 0. Returns, as bits, the stops without
- * an impulse, because the impulse would pull. work->law must belong to the position. */
+/* Applies impulses. J_k q' becomes target[k] for contacts in `set` (bits), and 0 for stops in `beside` (bits) and for
+ * active stops and holds outside `set`. Returns, as bits, the stops whose impulse would pull. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

@@ -116,7 +116,7 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Adds to work->hit_next the touching free stops, except `hits`, that an impulse closes. before[], after[]: signals. */
+/* Adds to work->hit_next the touching stops whose gaps shrink because of the impact. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -170,7 +170,7 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Resolves the impact of the stops in `hits` (bits). Returns `hits` and wh_contact_tied(), as bits. */
+/* Resolves the impact of the stops in `hits` (bits) and the stops of wh_contact_tied(). Returns all these stops. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {

@@ -29,10 +29,9 @@
  * would release and hit an unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A missing curvature term J' q' of a redundant contact counts as zero below this fraction of work->rough. */
+/* Differences of curvature terms J' q' below this fraction of work->rough count as zero. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* If round-off hides that a force exceeds its limit, the force grows by this fraction of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
@@ -45,9 +44,8 @@ typedef struct wh_contact_set {
     const int8_t *at; /* [count] -1: at low limit, 0: between, 1: at high limit; NULL: all 0 */
 } wh_contact_set;
 
-/* Finds redundant contacts whose wanted acceleration the other contacts do not produce. For each contact in `repeats`
- * (bits of indices in member[]), push[] gets the sign of the missing acceleration, or 0. way[] is the change of the
- * accelerations by all forces. If impulse[] is not NULL, `wanted` and way[] are changes of rates. */
+/* Sets push[i] to the sign of the part of wanted[i] that the forces do not produce, or to 0. `repeats` has the
+ * redundant contacts, as bits of indices i. If impulse[] is not NULL, wanted[] and way[] are changes of rates. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -238,7 +236,7 @@ typedef struct wh_contact_pivot {
     wh_real lambda[WH_CONTACTS_MAX];
     wh_real left[WH_CONTACTS_MAX];
     unsigned contradicted; /* bits: contacts at a limit because of a contradiction */
-    unsigned giving;       /* bits: contacts that give way */
+    unsigned giving;
 } wh_contact_pivot;
 
 /* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A freed contact becomes the last

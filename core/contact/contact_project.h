@@ -185,8 +185,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     return coarse;
 }
 
-/* Makes the rate along each active contact zero, unless `but` (bits) has the contact. If `booked`, the ledger gets the
- * impulses. work->law must belong to the position. */
+/* Makes the rates along the active contacts zero, except contacts in `but` (bits). w->law must be up to date. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};

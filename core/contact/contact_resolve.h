@@ -99,9 +99,7 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sets the modes of the frictions. A friction sticks if its rate is negligible, or if `zeros` (bits) has the friction
- * and no impulse has changed its rate. Otherwise a nonzero rate sets the direction of sliding. If h is not 0, work->law
- * must belong to the position. */
+/* Sets the frictions' modes by their rates. A friction in `zeros` (bits) sticks if no impulse has changed its rate. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -131,7 +129,7 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Returns, as bits, the resting stops without load that push in the same direction as a stop in `gone` (bits). */
+/* Returns, as bits, the unloaded resting stops whose force would open a stop in `gone` (bits). */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -307,9 +305,8 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Adapts the active contacts that are not in `but` (bits) to input rates that changed between two steps. Returns `but`
- * and the stops that open, as bits. *hits gets the stops that are hit, as bits. work->law must belong to the
- * position. */
+/* Adapts the active contacts outside `but` (bits) to input rates that changed between two steps. Returns `but` and the
+ * stops that open, as bits. *hits gets the stops that are hit. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {

@@ -90,7 +90,7 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Makes a trial step of a->next by the time `left`. If holds can slip, a->now must be the step's start. */
+/* Advances a->next by `left` seconds, as a trial. If holds can slip, a->now must be the state before. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;

@@ -34,7 +34,7 @@ typedef struct wh_contact_work {
     unsigned turned;
     /* A signal that passes zero by at most this much gives no event. */
     wh_real slack[WH_CONTACTS_MAX];
-    /* The sign of a crossing that turned back is undecided until the value exceeds this. */
+    /* After wh_contact_turn_back(), a crossing's value has no certain sign up to this magnitude. */
     wh_real due[WH_CONTACTS_MAX];
     /* Crossing whose sign is undecided: an earlier value. The sign is decided if |value - stood| exceeds |stood|. */
     wh_real stood[WH_CONTACTS_MAX];
@@ -59,7 +59,7 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* Gives functions that are not inlined the scene's constant: otherwise `gcc -Os` warns of unbounded loops. */
+/* `gcc -Os` warns of unbounded loops unless `of` is the scene's constant. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
@@ -130,7 +130,7 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* Extrapolates `s` by the time `span`. accel[coordinates] may be NULL. at->rate is the rate of `s`. */
+/* Extrapolates the positions of `s` by the time `span`. at->rate gets the present rates. accel may be NULL. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {

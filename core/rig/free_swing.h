@@ -61,9 +61,9 @@ wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
  *
  *      q'' = -g sin q - f sign q' - c q'
  *
- * q is the angle from hanging. g is S g0/I. f is Coulomb friction over I, c is viscous friction over I. A step uses
- * Stoermer's method (drift, kick, drift), forwards or backwards in time. If the rotor reverses within the step, the
- * derivatives are multiplied by the acceleration after the reversal, divided by the acceleration before. */
+ * q is the angle from hanging. g is gravity's largest torque, f is the torque of Coulomb friction, and c is the
+ * coefficient of viscous friction, each divided by the rotor's inertia. A step uses Stoermer's method, forwards or
+ * backwards in time. A reversal multiplies the derivatives by the ratio of the later to the earlier acceleration. */
 
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
 
@@ -161,7 +161,7 @@ typedef struct wh_swing {
     wh_real soft_rad2;                  /* additional variance of each pulse */
     wh_free_rotor way;                  /* the rotor at the time `ticks` of a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS]; /* unknowns: q minus position 1, q', g, f, c, both positions */
+    wh_real x[WH_NORMAL_UNKNOWNS];      /* x[WH_FREE_Q] counts from the angle at sensor 1's pulse */
     wh_real guess[WH_NORMAL_UNKNOWNS];
     wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];

@@ -109,7 +109,7 @@ typedef struct wh_guard {
     uint32_t rejected_before; /* rejected pulses when the motor began to drive */
     uint32_t load_ticks;      /* time of the last load sample, or of the start */
     uint32_t load_pulses;     /* accepted pulses at the last load sample */
-    uint32_t still_pulses;    /* pulses since the load's last change, at most one per sample */
+    uint32_t still_pulses;    /* load samples with a new pulse, since the load's last change */
     wh_real still_N;          /* the load at its last change */
     wh_off off;
 } wh_guard;

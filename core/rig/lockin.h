@@ -194,8 +194,8 @@ void wh_lockin_gap(wh_lockin *lockin);
 /* Take a sample, in the order of time. A sample that is not ok, or not newer than the last one, is not used. */
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
-/* Call this once per control step. The call does one piece of the work. If nodes are summed, the piece is at most
- * `halves` half nodes. Returns true if this call has finished another lockin->turn. */
+/* Call this once per control step. The call does one piece of the work. Each sample or pulse is summed in two parts; a
+ * call sums at most `halves` parts. Returns true if this call has finished another lockin->turn. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
 

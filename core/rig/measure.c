@@ -163,7 +163,7 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Limit on the triangular means' variance divided by the samples' variance: four times the ratio of white noise. */
+/* Four times the variance of end_block()'s means, if the samples are white noise of variance 1. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
 /* Ends a block: takes the mean of this block and the previous one, with triangular weights. */

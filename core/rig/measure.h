@@ -97,8 +97,8 @@ void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *index);
 /* Take a load sample: for the tare if at_rest, otherwise for the measurement. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* Call this once per control step. The call does one piece of the work. If a turn's nodes are summed, the piece is at
- * most `halves` half nodes. Other pieces need `halves` of at least WH_LOCKIN_HALVES_AT_ONCE. */
+/* Call this once per control step. The call does one piece of the work. Each sample or pulse is summed in two parts; a
+ * call sums at most `halves` parts. Below WH_LOCKIN_HALVES_AT_ONCE, a call does no other work. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
 /* Begin a record now, at a speed > 0; drop an earlier record. */
