@@ -9,29 +9,29 @@
 
 /* === the run's own ledger (core/ledger.h), read by account ===================================== */
 
-typedef enum giver {
-    GIVER_ENERGIES, /* the term dL/dq in a momentum's account */
-    GIVER_FORCE,    /* a statement Q */
-    GIVER_DAMPER,   /* a statement F */
-    GIVER_CONTACT,
-    GIVER_INPUT, /* changes of an input that occurs in the energies */
-    GIVER_STEPS  /* energy that --stabilized has added */
-} giver;
+typedef enum entry_source {
+    SOURCE_ENERGIES, /* the term dL/dq in a momentum's account */
+    SOURCE_FORCE,    /* a statement Q */
+    SOURCE_DAMPER,   /* a statement F */
+    SOURCE_CONTACT,
+    SOURCE_INPUT, /* changes of an input that occurs in the energies */
+    SOURCE_STEPS  /* energy that --stabilized has added */
+} entry_source;
 
-static const giver givers[] = {[LEDGER_ENERGIES] = GIVER_ENERGIES,
-                               [LEDGER_WORK] = GIVER_FORCE,
-                               [LEDGER_DRIVE] = GIVER_FORCE,
-                               [LEDGER_LOSS] = GIVER_DAMPER,
-                               [LEDGER_DAMPING] = GIVER_DAMPER};
+static const entry_source sources[] = {[LEDGER_ENERGIES] = SOURCE_ENERGIES,
+                                       [LEDGER_WORK] = SOURCE_FORCE,
+                                       [LEDGER_DRIVE] = SOURCE_FORCE,
+                                       [LEDGER_LOSS] = SOURCE_DAMPER,
+                                       [LEDGER_DAMPING] = SOURCE_DAMPER};
 
 typedef struct kept_entry {
-    giver by;
-    place at;     /* the statement; unused for GIVER_ENERGIES and GIVER_STEPS */
+    entry_source by;
+    place at;     /* the statement; unused for SOURCE_ENERGIES and SOURCE_STEPS */
     double given; /* energy or momentum added to the account since the start, SI */
 } kept_entry;
 
 typedef struct kept_account {
-    kept_entry *entry; /* [entries] of statements, then inputs, then contacts, then GIVER_STEPS */
+    kept_entry *entry; /* [entries] of statements, then inputs, then contacts, then SOURCE_STEPS */
     int entries;
     double left; /* residual of the account, computed by the core; SI */
 } kept_account;
@@ -49,19 +49,20 @@ static kept_account kept_account_read(const image *im, const engine_kind *kind, 
     }
     for (int i = 0; i < l->smooth; i++) {
         if (l->entry[i].account == account) {
-            k.entry[k.entries++] = (kept_entry){givers[l->entry[i].kind], l->entry[i].at, total[i]};
+            k.entry[k.entries++] =
+                (kept_entry){sources[l->entry[i].kind], l->entry[i].at, total[i]};
         }
     }
     for (int i = 0; i < l->inputs && account == 0; i++) {
-        k.entry[k.entries++] = (kept_entry){GIVER_INPUT, im->input[l->input[i]].at,
+        k.entry[k.entries++] = (kept_entry){SOURCE_INPUT, im->input[l->input[i]].at,
                                             total[l->entries - stabilized - l->inputs + i]};
     }
     for (int c = 0; c < im->contacts && account <= im->coordinates; c++) {
-        k.entry[k.entries++] = (kept_entry){GIVER_CONTACT, im->contact[c].at,
+        k.entry[k.entries++] = (kept_entry){SOURCE_CONTACT, im->contact[c].at,
                                             total[l->smooth + c * (1 + im->coordinates) + account]};
     }
     if (stabilized && account == 0) {
-        k.entry[k.entries++] = (kept_entry){.by = GIVER_STEPS, .given = total[l->entries - 1]};
+        k.entry[k.entries++] = (kept_entry){.by = SOURCE_STEPS, .given = total[l->entries - 1]};
     }
     k.left = total[l->entries + account];
     free(total);
@@ -86,12 +87,12 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
         made->left_J -= e->given;
         made->largest_J = larger(made->largest_J, e->given);
         switch (e->by) {
-        case GIVER_FORCE:
-        case GIVER_INPUT: made->inputs_J += e->given; break;
-        case GIVER_DAMPER: made->losses_J += e->given; break;
-        case GIVER_CONTACT: made->contacts_J += e->given; break;
-        case GIVER_ENERGIES:     /* only momenta have such entries */
-        case GIVER_STEPS: break; /* a scene with contacts cannot be --stabilized */
+        case SOURCE_FORCE:
+        case SOURCE_INPUT: made->inputs_J += e->given; break;
+        case SOURCE_DAMPER: made->losses_J += e->given; break;
+        case SOURCE_CONTACT: made->contacts_J += e->given; break;
+        case SOURCE_ENERGIES:     /* only momenta have such entries */
+        case SOURCE_STEPS: break; /* a scene with contacts cannot be --stabilized */
         }
     }
     kept_account_free(&kept);
@@ -234,12 +235,12 @@ static void print_entries(FILE *out, const kept_account *kept, const char *unkno
     char text[ACCOUNT_WIDTH + 1];
     for (int i = 0; i < kept->entries; i++) {
         const kept_entry *e = &kept->entry[i];
-        if (e->by == GIVER_CONTACT && e->given == 0.0) {
+        if (e->by == SOURCE_CONTACT && e->given == 0.0) {
             continue;
         }
-        if (e->by == GIVER_STEPS) {
+        if (e->by == SOURCE_STEPS) {
             snprintf(text, sizeof text, "energy correction (--stabilized)");
-        } else if (e->by != GIVER_ENERGIES) {
+        } else if (e->by != SOURCE_ENERGIES) {
             statement_text(e->at, text, sizeof text);
         } else {
             snprintf(text, sizeof text, "from T and V: dL/d%.20s", unknown);

@@ -72,7 +72,7 @@ static horizon_column judge(const step_doubling *t, int k, double tolerance) {
     const bool passed = isfinite(made.until_s);
     const bool few = has_few_digits(t, k, tolerance * by);
     if (passed && !(few && c->rounding > least_size(c)) &&
-        (!t->otherwise || made.off <= ROUNDING_ROOM * c->rounding) &&
+        (!t->refolded || made.off <= ROUNDING_ROOM * c->rounding) &&
         range <= ROUNDING_ROOM * c->rounding && isfinite(made.off) && stays(t, k)) {
         made.verdict = HORIZON_ROUNDING;
         made.until_s = t->end_s;

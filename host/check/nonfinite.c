@@ -7,11 +7,11 @@
 #include "host/base/alloc.h"
 #include "host/base/diag.h"
 
-blamed blamed_open(const image *im) {
-    blamed b = {.image = im,
-                .state = alloc(im->count, sizeof *b.state),
-                .input = alloc(im->inputs, sizeof *b.input),
-                .value = alloc(im->diagnostics.nodes, sizeof *b.value)};
+diagnosis diagnosis_open(const image *im) {
+    diagnosis b = {.image = im,
+                   .state = alloc(im->count, sizeof *b.state),
+                   .input = alloc(im->inputs, sizeof *b.input),
+                   .value = alloc(im->diagnostics.nodes, sizeof *b.value)};
     image_inputs(im, b.input);
     for (int i = 0; i < im->count; i++) {
         b.state[i] = alloc(im->unknown[i].order + 1, sizeof **b.state);
@@ -19,7 +19,7 @@ blamed blamed_open(const image *im) {
     return b;
 }
 
-void blamed_close(blamed *b) {
+void diagnosis_close(diagnosis *b) {
     for (int i = 0; i < b->image->count; i++) {
         free(b->state[i]);
     }
@@ -28,7 +28,7 @@ void blamed_close(blamed *b) {
     free(b->value);
 }
 
-void blamed_place(blamed *b, const double *angle_rad, const double *real) {
+void diagnosis_place(diagnosis *b, const double *angle_rad, const double *real) {
     const image *im = b->image;
     for (int i = 0; i < im->angles; i++) {
         b->state[im->angle[i].unknown][0] = angle_rad[i];
@@ -38,7 +38,7 @@ void blamed_place(blamed *b, const double *angle_rad, const double *real) {
     }
 }
 
-double blamed_node(const blamed *b, const diagnostics_node *n) {
+double diagnosis_value(const diagnosis *b, const diagnostics_node *n) {
     const double *value = b->value;
     switch (n->code) {
     case DIAGNOSTICS_NUMBER: return n->number;
@@ -58,7 +58,7 @@ double blamed_node(const blamed *b, const diagnostics_node *n) {
     return (double)NAN;
 }
 
-int blamed_operands(const diagnostics_node *n, int of[static 2]) {
+int diagnosis_operands(const diagnostics_node *n, int of[static 2]) {
     of[0] = n->a;
     of[1] = n->b;
     switch (n->code) {
@@ -77,12 +77,12 @@ int blamed_operands(const diagnostics_node *n, int of[static 2]) {
     return 0;
 }
 
-bool *blamed_parts(const image *im, int node) {
+bool *diagnosis_parts(const image *im, int node) {
     bool *of = alloc((int64_t)node + 1, sizeof *of);
     of[node] = true;
     for (int i = node; i >= 0; i--) {
         int operand[2];
-        const int count = of[i] ? blamed_operands(&im->diagnostics.node[i], operand) : 0;
+        const int count = of[i] ? diagnosis_operands(&im->diagnostics.node[i], operand) : 0;
         for (int k = 0; k < count; k++) {
             of[operand[k]] = true;
         }
@@ -106,7 +106,7 @@ static double sine_limit_rad(const nonfinite_at *at) {
 }
 
 /* Is node i a sine outside the range of core/number/sine.h? In float the sine of a turn angle has no such range. */
-static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bool *turning) {
+static bool sine_beyond(const diagnosis *v, int i, const nonfinite_at *at, const bool *turning) {
     const diagnostics_node *n = &v->image->diagnostics.node[i];
     const double angle_rad = is_sine(n) ? v->value[n->a] : 0.0;
     const bool beyond = fabs(angle_rad) >= sine_limit_rad(at) && isfinite(angle_rad);
@@ -119,7 +119,7 @@ static bool *nodes_that_turn(const image *im) {
     for (int i = 0; i < im->diagnostics.nodes; i++) {
         const diagnostics_node *n = &im->diagnostics.node[i];
         int operand[2];
-        const int count = blamed_operands(n, operand);
+        const int count = diagnosis_operands(n, operand);
         for (int k = 0; k < count; k++) {
             turning[i] = turning[i] || turning[operand[k]];
         }
@@ -131,9 +131,9 @@ static bool *nodes_that_turn(const image *im) {
 }
 
 /* Evaluates the expressions at a state that is extrapolated by `ahead_s` from the last good state. */
-static blamed look(const nonfinite_at *at, double ahead_s) {
+static diagnosis look(const nonfinite_at *at, double ahead_s) {
     const image *im = at->image;
-    blamed v = blamed_open(im);
+    diagnosis v = diagnosis_open(im);
     const state_list books = state_list_open(im, IMAGE_BOOKS);
     const double *highest = state_list_at(&books, at->angle_rad, at->real);
     for (int i = 0; i < im->count; i++) {
@@ -144,7 +144,7 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
         v.state[i][u->order] = isfinite(highest[i]) ? highest[i] : 0.0;
     }
     state_list_close(&books);
-    blamed_place(&v, at->angle_rad, at->real);
+    diagnosis_place(&v, at->angle_rad, at->real);
     for (int i = 0; i < im->count; i++) {
         for (int k = 0; k < im->unknown[i].order; k++) {
             v.state[i][k] += ahead_s * v.state[i][k + 1];
@@ -153,7 +153,7 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
     bool *turning = nodes_that_turn(im);
     for (int i = 0; i < im->diagnostics.nodes; i++) {
         const bool unknown = sine_beyond(&v, i, at, turning);
-        v.value[i] = unknown ? (double)NAN : blamed_node(&v, &im->diagnostics.node[i]);
+        v.value[i] = unknown ? (double)NAN : diagnosis_value(&v, &im->diagnostics.node[i]);
     }
     free(turning);
     return v;
@@ -162,13 +162,13 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
 /* --- questions ---------------------------------------------------------------------------------*/
 
 /* The innermost part of `node` that is not finite but has finite operands; -1 if `node` is finite. */
-static int innermost(const blamed *v, int node) {
+static int innermost(const diagnosis *v, int node) {
     int operand[2];
     int part = -1;
     if (isfinite(v->value[node])) {
         return -1;
     }
-    const int count = blamed_operands(&v->image->diagnostics.node[node], operand);
+    const int count = diagnosis_operands(&v->image->diagnostics.node[node], operand);
     for (int k = 0; k < count && part < 0; k++) {
         part = innermost(v, operand[k]);
     }
@@ -186,7 +186,7 @@ static void report(const nonfinite_at *at, place where, place part, const char *
 }
 
 /* A hint for node i, the innermost one that is not finite. */
-static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
+static const char *hint_of(const diagnosis *v, int i, const nonfinite_at *at) {
     static char hint[200];
     const diagnostics_node *n = &v->image->diagnostics.node[i];
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
@@ -199,7 +199,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     return sine ? hint : hint_domain;
 }
 
-static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
+static bool find(const diagnosis *v, const nonfinite_at *at, int first, int count, diags *errors) {
     const image_diagnostics *b = &v->image->diagnostics;
     for (int i = first; i < first + count; i++) {
         const diagnostics_question *q = &b->question[i];
@@ -220,9 +220,9 @@ static bool look_ahead(const nonfinite_at *at, int first, int count, diags *erro
     bool found = false;
     for (size_t i = 0; i < sizeof shares / sizeof shares[0] && !found; i++) {
         if (shares[i] == 0.0 || shares[i] <= 2.0 * at->ahead_steps) {
-            blamed v = look(at, shares[i] * at->image->step_s);
+            diagnosis v = look(at, shares[i] * at->image->step_s);
             found = find(&v, at, first, count, errors);
-            blamed_close(&v);
+            diagnosis_close(&v);
         }
     }
     return found;

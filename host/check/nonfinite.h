@@ -8,24 +8,24 @@
 /* === expressions at one state ================================================================= */
 /* Evaluates the expressions of a scene (image_diagnostics in host/image/image.h) at one state. */
 
-typedef struct blamed {
+typedef struct diagnosis {
     const image *image;
     double **state; /* [unknowns][order + 1] value, rate, ... */
     double *input;  /* [inputs] values at the start */
     double *value;  /* [diagnostics.nodes] */
-} blamed;
+} diagnosis;
 
-blamed blamed_open(const image *im);
-void blamed_close(blamed *b);
+diagnosis diagnosis_open(const image *im);
+void diagnosis_close(diagnosis *b);
 
 /* Enters a state, as engine_kind.state() gives it, in b->state. Other entries of b->state do not change. */
-void blamed_place(blamed *b, const double *angle_rad, const double *real);
+void diagnosis_place(diagnosis *b, const double *angle_rad, const double *real);
 /* The value of a node, from the values of its operands. */
-double blamed_node(const blamed *b, const diagnostics_node *n);
+double diagnosis_value(const diagnosis *b, const diagnostics_node *n);
 /* of[]: the operands of a node. Returns their number. */
-int blamed_operands(const diagnostics_node *n, int of[static 2]);
+int diagnosis_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
-bool *blamed_parts(const image *im, int node);
+bool *diagnosis_parts(const image *im, int node);
 
 /* Largest argument of sine and cosine, rad (core/number/sine.h). Turn angles of a float run have no limit. */
 #define ANGLE_SINE_MOST_RAD 5e8

@@ -344,7 +344,7 @@ typedef struct divisor {
 } divisor;
 
 typedef struct denominators {
-    blamed at;
+    diagnosis at;
     unsigned char *is; /* [nodes] */
     int *order;        /* [ordered] nodes on which the tested values depend, operands first */
     int ordered;
@@ -394,7 +394,7 @@ static void find_what_moves(denominators *d) {
     for (int i = 0; i < im->diagnostics.nodes; i++) {
         const diagnostics_node *n = &im->diagnostics.node[i];
         int of[2];
-        const int count = blamed_operands(n, of);
+        const int count = diagnosis_operands(n, of);
         unsigned is = 0U;
         if (n->code == DIAGNOSTICS_STATE) {
             const bool known =
@@ -406,7 +406,7 @@ static void find_what_moves(denominators *d) {
         }
         is |= bends(d, n, of, count) ? BENDS : 0U;
         d->is[i] = (unsigned char)is;
-        d->at.value[i] = blamed_node(&d->at, n); /* constants are evaluated here, only once */
+        d->at.value[i] = diagnosis_value(&d->at, n); /* constants are evaluated here, only once */
     }
 }
 
@@ -461,7 +461,7 @@ static void find_order(denominators *d) {
         }
         if (watched || (d->is[i] & NEEDED) != 0) {
             int of[2];
-            const int count = blamed_operands(&b->node[i], of);
+            const int count = diagnosis_operands(&b->node[i], of);
             mark(d, i, NEEDED);
             for (int k = 0; k < count; k++) {
                 mark(d, of[k], NEEDED);
@@ -529,7 +529,7 @@ static void find_derived(denominators *d) {
 static denominators denominators_open(const image *im) {
     const int nodes = im->diagnostics.nodes;
     denominators d = {
-        .at = blamed_open(im),
+        .at = diagnosis_open(im),
         .is = alloc(nodes, sizeof *d.is),
         .order = alloc(nodes, sizeof *d.order),
         .divisor = alloc(2 * (int64_t)nodes + im->list[IMAGE_BOOKS]->count, sizeof *d.divisor)};
@@ -548,7 +548,7 @@ static denominators denominators_open(const image *im) {
 }
 
 static void denominators_close(denominators *d) {
-    blamed_close(&d->at);
+    diagnosis_close(&d->at);
     vector_field_close(d->field);
     free(d->is);
     free(d->order);
@@ -558,10 +558,10 @@ static void denominators_close(denominators *d) {
 
 static void denominators_see(denominators *d, const double *state) {
     const image *im = d->at.image;
-    blamed_place(&d->at, state, state + im->angles);
+    diagnosis_place(&d->at, state, state + im->angles);
     engine_operations += (uint64_t)(d->ordered + d->count);
     for (int i = 0; i < d->ordered; i++) {
-        d->at.value[d->order[i]] = blamed_node(&d->at, &im->diagnostics.node[d->order[i]]);
+        d->at.value[d->order[i]] = diagnosis_value(&d->at, &im->diagnostics.node[d->order[i]]);
     }
     if (d->field != NULL) { /* evaluates the operations that denominators_value() reads */
         double slope[3 * IMAGE_COMPONENTS_MAX];
@@ -571,11 +571,11 @@ static void denominators_see(denominators *d, const double *state) {
 
 static void denominators_see_all(denominators *d, const double *state, double *value) {
     const image *im = d->at.image;
-    blamed_place(&d->at, state, state + im->angles);
+    diagnosis_place(&d->at, state, state + im->angles);
     engine_operations += (uint64_t)im->diagnostics.nodes;
     for (int i = 0; i < im->diagnostics.nodes; i++) {
         if ((d->is[i] & MOVES) != 0) {
-            d->at.value[i] = blamed_node(&d->at, &im->diagnostics.node[i]);
+            d->at.value[i] = diagnosis_value(&d->at, &im->diagnostics.node[i]);
         }
     }
     for (int i = 0; i < d->questions; i++) {
@@ -596,7 +596,7 @@ static double denominators_value(const denominators *d, const divisor *of) {
 
 /* Does this node depend on the highest derivative of `unknown`? */
 static bool has_highest(const image *im, int node, int unknown) {
-    bool *of = blamed_parts(im, node);
+    bool *of = diagnosis_parts(im, node);
     bool has = false;
     for (int i = 0; i <= node && !has; i++) {
         const diagnostics_node *n = &im->diagnostics.node[i];
@@ -713,7 +713,7 @@ static double relative_way(const pole_crossing *j, const divisor *d) {
     if (d->derived) {
         return most;
     }
-    bool *of = blamed_parts(j->image, d->node);
+    bool *of = diagnosis_parts(j->image, d->node);
     for (int i = 0; i <= d->node; i++) {
         const diagnostics_node *n = &j->image->diagnostics.node[i];
         if (of[i] && n->code == DIAGNOSTICS_STATE) {

@@ -43,7 +43,7 @@ static void look_at_list(const image *im, image_role role, const double *x, doub
     if (results > 0) {
         evaluate_list(im, role, x, value);
         for (int k = 0; k < im->ways; k++) {
-            evaluate_list(im->otherwise[k], role, x, off + (ptrdiff_t)k * results);
+            evaluate_list(im->refolded[k], role, x, off + (ptrdiff_t)k * results);
         }
         for (int i = 0; i < im->ways * results; i++) {
             const double now = fabs(off[i] - value[i % results]);
@@ -58,7 +58,7 @@ static void compare_starts(const image *im, double *share) {
     const int n = im->angles + im->reals;
     double *off = alloc((int64_t)im->ways * n, sizeof *off);
     for (int i = 0; i < im->ways * n; i++) {
-        off[i] = fabs(image_start(im->otherwise[i / n], i % n) - image_start(im, i % n));
+        off[i] = fabs(image_start(im->refolded[i / n], i % n) - image_start(im, i % n));
     }
     add_shares(off, im->ways, n, share);
     free(off);
@@ -88,7 +88,7 @@ static const image *constant_sensitivity_furthest(const image *im) {
     for (int k = 1; k < im->ways; k++) {
         furthest = share[k] > share[furthest] ? k : furthest;
     }
-    return im->otherwise[furthest];
+    return im->refolded[furthest];
 }
 
 /* --- the finer run's image ---------------------------------------------------------------------------*/
@@ -324,7 +324,7 @@ static void look(step_doubling *t, double time_s) {
         const double value = t->finers->row[k];
         const double off = fabs(t->shape->row[k] - value);
         const double now = isfinite(off) ? off : (double)INFINITY;
-        const double ranged = t->otherwise ? t->shape->row[k] : value;
+        const double ranged = t->refolded ? t->shape->row[k] : value;
         c->start = t->looks == 0 ? value : c->start;
         if (t->cut_s < 0.0) { /* after cut_s the finer run may diverge */
             c->low = t->looks == 0 || ranged < c->low ? ranged : c->low;
@@ -414,7 +414,7 @@ step_doubling *step_doubling_open(const image *im, const engine_kind *kind, void
                                   const pole_crossing *jumped) {
     step_doubling *t = alloc(1, sizeof *t);
     make_finer(t, im);
-    t->otherwise = im->ways > 0;
+    t->refolded = im->ways > 0;
     t->shape = records_open(NULL, im, kind);
     t->columns = t->shape->columns - im->own_outputs;
     t->column = alloc(t->columns, sizeof *t->column);

@@ -63,7 +63,7 @@ typedef struct step_doubling {
     uint64_t operations; /* operations of all steps of the finer run */
     double left_out;     /* estimated error of the run, divided by the runs' difference */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
-    bool otherwise;      /* the finer run's constants have other roundings */
+    bool refolded;       /* the finer run's constants have other roundings */
     int columns; /* number of columns that are no outputs: the time, coordinates and rates */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */

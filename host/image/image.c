@@ -38,7 +38,7 @@ void image_free(image *im) {
         }
     }
     for (int k = 0; k < im->ways && im->base == NULL; k++) {
-        image_free(im->otherwise[k]);
+        image_free(im->refolded[k]);
     }
     image_free(im->finer);
     arena_free(im->memory);

@@ -12,7 +12,7 @@
 #include "host/image/op_list.h"
 #include "host/number/ratio.h"
 
-enum { IMAGE_WAYS = 6 }; /* largest number of variants, see image.otherwise */
+enum { IMAGE_WAYS = 6 }; /* largest number of variants, see image.refolded */
 
 #define IMAGE_COMPONENTS_MAX 64 /* second order: most coordinates; first order: most components */
 
@@ -272,7 +272,7 @@ typedef struct image {
     int parameters;   /* parameters of the mechanism and of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
     /* [ways] variants: the same scene with other constant folding (host/number/folding.h) */
-    struct image *otherwise[IMAGE_WAYS];
+    struct image *refolded[IMAGE_WAYS];
     int ways;               /* 0 if folding lost no digits */
     struct image *finer;    /* image of step doubling's finer run; NULL if it is this image */
     bool unbounded;         /* a variant failed: a constant was not finite */

@@ -302,7 +302,8 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 /* image_make() makes variants only if folding.lost exceeds this limit. */
 #define FOLDED_MUCH 1e-9
 
-_Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
+_Static_assert((int)FOLDING_WAYS - (int)FOLDING_OPPOSITE == (int)IMAGE_WAYS,
+               "a place for each way");
 
 static bool is_alike(const image *im, const image *other) {
     bool alike = im->form == other->form && im->coordinates == other->coordinates &&
@@ -322,11 +323,11 @@ static bool is_alike(const image *im, const image *other) {
 }
 
 /* Makes a variant of `im` with folding `way`. Returns NULL if that fails, or if the two are not is_alike(). */
-static image *make_otherwise(image *im, const equations *e, const bool *conserve,
-                             const image_settings *settings, int way) {
+static image *make_refolded(image *im, const equations *e, const bool *conserve,
+                            const image_settings *settings, int way) {
     diags *unsaid = diags_new();
-    folding otherwise = {.way = way};
-    folding *const before = folding_use(&otherwise);
+    folding varied = {.way = way};
+    folding *const before = folding_use(&varied);
     instance *again = instance_again(e->instance);
     im->unbounded = im->unbounded || again == NULL;
     equations *other = again != NULL ? equations_derive(again, unsaid) : NULL;
@@ -354,10 +355,10 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
         return NULL;
     }
     const bool asks = use != IMAGE_TO_WRITE && nearest.lost > FOLDED_MUCH;
-    for (int way = FOLDING_OTHER; way < FOLDING_WAYS && asks; way++) {
-        image *other = make_otherwise(im, e, conserve, settings, way);
+    for (int way = FOLDING_OPPOSITE; way < FOLDING_WAYS && asks; way++) {
+        image *other = make_refolded(im, e, conserve, settings, way);
         if (other != NULL) {
-            im->otherwise[im->ways++] = other;
+            im->refolded[im->ways++] = other;
         }
     }
     image_settings finer;

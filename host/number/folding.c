@@ -142,9 +142,9 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* FOLDING_OTHER does not change quotients: a quotient's change could cancel a sum's change. */
+/* FOLDING_OPPOSITE does not change quotients: a quotient's change could cancel a sum's change. */
 static bool moves_products(void) {
-    return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
+    return now->way != FOLDING_NEAREST && now->way != FOLDING_OPPOSITE;
 }
 
 double folding_product(double x, double y) {

@@ -17,10 +17,10 @@
 
 #include "host/number/functions.h"
 
-/* FOLDING_NEAREST rounds to nearest, as a board does. FOLDING_OTHER rounds sums and functions to the other side of the
+/* FOLDING_NEAREST rounds to nearest, as a board does. FOLDING_OPPOSITE rounds sums and functions to the other side of the
  * exact value. FOLDING_APART rounds to nearest, but does not merge nearly equal numbers. From FOLDING_SOME on, a hash
  * of the operands' digits decides whether an inexact result moves up or down. */
-enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
+enum { FOLDING_NEAREST, FOLDING_OPPOSITE, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS = 7 };
 
 /* Largest number of recorded residues. Further residues are not recognized. */
 enum { FOLDING_RESTS = 256 };

@@ -1,6 +1,6 @@
 /* test_folding_ways.c: constants folded with other roundings (host/number/folding.h): sums, products, quotients,
  * powers and functions of random numbers, compared with long double or fma(). Exact results must stay. Other results
- * must change by up to two units in the last place: to the far side of the exact value with FOLDING_OTHER, to either
+ * must change by up to two units in the last place: to the far side of the exact value with FOLDING_OPPOSITE, to either
  * side with later ways. */
 #include "host/number/folding.h"
 
@@ -79,14 +79,14 @@ TEST(folding_ways, inexact_results_are_moved) {
         for (kind of = SUM; of < KINDS; of++) {
             const double nearest = folded_by(FOLDING_NEAREST, of, x, y);
             const int side = side_of(of, x, y, nearest);
-            for (int way = FOLDING_OTHER; way < FOLDING_WAYS; way++) {
+            for (int way = FOLDING_OPPOSITE; way < FOLDING_WAYS; way++) {
                 const int by = doubles_from(nearest, folded_by(way, of, x, y));
                 char what[160];
                 snprintf(what, sizeof what, "kind %d, way %d: %a and %a moved by %d", (int)of, way,
                          x, y, by);
                 TEST_ASSERT_TRUE_MESSAGE(by >= -2 && by <= 2, what);
                 times[of][way][by + 2]++;
-                if (way == FOLDING_OTHER && of == SUM) {
+                if (way == FOLDING_OPPOSITE && of == SUM) {
                     TEST_ASSERT_EQUAL_INT_MESSAGE(2 * side, by, what);
                 }
                 if (of <= QUOTIENT && side == 0) {
@@ -98,7 +98,7 @@ TEST(folding_ways, inexact_results_are_moved) {
     for (kind of = SUM; of < KINDS; of++) {
         const bool stays = of == PRODUCT || of == QUOTIENT;
         TEST_ASSERT_EQUAL_UINT(DRAWN, times[of][FOLDING_APART][2]);
-        TEST_ASSERT_TRUE((times[of][FOLDING_OTHER][2] == DRAWN) == stays);
+        TEST_ASSERT_TRUE((times[of][FOLDING_OPPOSITE][2] == DRAWN) == stays);
         for (int way = FOLDING_SOME; way < FOLDING_WAYS; way++) {
             /* each size of change must be frequent; a third of the sums is exact */
             for (int by = 0; by < 5; by++) {
@@ -139,7 +139,7 @@ TEST(folding_ways, exact_results_stay) {
     for (unsigned i = 0; i < 300; i++) {
         const double x = 1.0 + dice_one_of(&d, 1000);
         const double y = ldexp(1.0 + dice_one_of(&d, 1000), (int)dice_one_of(&d, 40) - 20);
-        for (int way = FOLDING_OTHER; way < FOLDING_WAYS; way++) {
+        for (int way = FOLDING_OPPOSITE; way < FOLDING_WAYS; way++) {
             TEST_ASSERT_TRUE(folded_by(way, SUM, x, -y) == x - y);
             TEST_ASSERT_TRUE(folded_by(way, PRODUCT, x, y) == x * y);
             TEST_ASSERT_TRUE(folded_by(way, QUOTIENT, x * y, x) == y);
