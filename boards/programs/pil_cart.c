@@ -4,7 +4,7 @@
  * (docs/pil.md). Exit status 0: after ten seconds the rod is upright in the middle; 1: it is not; 2: no plant. */
 #include "boards/board.h"
 #include "core/text.h"
-#include "hal/frames/turns.h"
+#include "hal/pil/turns.h"
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 1000U

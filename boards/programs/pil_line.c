@@ -1,8 +1,8 @@
 /* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`. A
  * message reports the program's end, which the plant cannot detect otherwise. */
 #include "boards/board.h"
-#include "hal/frames/rig_frames.h"
 #include "hal/link.h"
+#include "hal/pil/rig_frames.h"
 
 static _Noreturn void tell_and_exit(int status) {
     uint8_t heard;

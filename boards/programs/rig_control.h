@@ -19,7 +19,7 @@
 #include "rig_own.h"
 #include "trip_memory.h"
 
-/* 1: hal/virtual simulates the rig's hardware. 0: real hardware, or hal/frames if HAL_FRAMES is 1. */
+/* 1: hal/virtual simulates the rig's hardware. 0: real hardware, or hal/pil if HAL_FRAMES is 1. */
 #ifndef HAL_VIRTUAL
 #define HAL_VIRTUAL 1
 #endif
@@ -30,7 +30,7 @@
 #define HAL_FRAMES 0
 #endif
 #if HAL_FRAMES
-#include "hal/frames/rig_frames.h"
+#include "hal/pil/rig_frames.h"
 #endif
 
 /* Begin and end of a control step's computation, for programs that measure it. Inputs and outputs are outside. */

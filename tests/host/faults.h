@@ -3,11 +3,11 @@
 #ifndef TESTS_FAULTS_H
 #define TESTS_FAULTS_H
 
-#include "hal/frames/rig_frames.h"
+#include "hal/pil/rig_frames.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 
-/* HAL_NOTES: the number of the firmware's notes. Their sequence is that of hal/frames/rig_frames.h. */
+/* HAL_NOTES: the number of the firmware's notes. Their sequence is that of hal/pil/rig_frames.h. */
 #define NOTE_ONE(name, word, unit) +1
 enum { HAL_NOTES = HAL_NOTE_ROWS(NOTE_ONE) };
 #undef NOTE_ONE

@@ -1,6 +1,6 @@
 /* rig_frames.h: notes from the rig's controller, by which the program at the other end of the line judges the run. */
-#ifndef HAL_FRAMES_RIG_FRAMES_H
-#define HAL_FRAMES_RIG_FRAMES_H
+#ifndef HAL_PIL_RIG_FRAMES_H
+#define HAL_PIL_RIG_FRAMES_H
 
 #include <stdbool.h>
 

@@ -1,8 +1,8 @@
 /* turns.h: a controller and its plant, which take turns over a line (link.h, core/exchange.h). Simulated time advances
  * only in hal_turns_wait(), which sends the outputs and returns with the time and the readings. A program declares its
  * signals and uses this file, or a HAL based on it (rig_frames.c). */
-#ifndef HAL_FRAMES_TURNS_H
-#define HAL_FRAMES_TURNS_H
+#ifndef HAL_PIL_TURNS_H
+#define HAL_PIL_TURNS_H
 
 #include "core/exchange.h"
 
