@@ -136,9 +136,8 @@ wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned an
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
                               wh_real by_rad);
 
-/* Time of the state: state->steps * scene->step, for all times below 2^64 s. Only the fraction of a second is rounded,
- * once, to the nearest real, so float resolves a microsecond in a run of years. If the scene's step is not given as a
- * fraction, the result is wh_scene_time_s() as seconds and fraction. */
+/* Time of the state: state->steps * scene->step, below 2^64 s. whole_s is exact. fraction_s is rounded to the nearest
+ * real. If scene->step.denominator is 0, the result is wh_scene_time_s(), split into whole_s and fraction_s. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
 /* Time of the state as one real: steps * step_s. Two roundings, and the error of step_s, give a relative error of at

@@ -45,7 +45,7 @@ typedef struct wh_stepped_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
-/* Fills the phases at the begin. Zeroes unused elements, because the compiler does not know that they are unused. */
+/* Fills list->phase[], and zeroes the unused elements of list->at[]. */
 WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
                                 wh_stepped_list *list) {
     WH_UNROLL

@@ -1,5 +1,5 @@
 /* loadcell.h: the load cell in the loading train and its converter. Raw counts are proportional to the rig's force on
- * the cell, positive towards theta = 0, which is straight down. They include the rig's weight, the tare. */
+ * the cell. Forces straight down (theta = 0) are positive. The rig's weight adds an offset to the counts, the tare. */
 #ifndef HAL_LOADCELL_H
 #define HAL_LOADCELL_H
 

@@ -150,7 +150,7 @@ extern const wh_rig_config wh_rig_standard;
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* Returns the stage to be shown: wh_rig_stage(), or WH_RIG_STAGE_BRAKES while the motor is off and brakes. */
+/* Returns WH_RIG_STAGE_BRAKES if the motor brakes in WH_PHASE_OFF, otherwise wh_rig_stage(). */
 #define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
@@ -163,7 +163,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Set the sensors' angles: 1 on the loading-train axis, 2 a quarter turn later. Pulses come lead_rad earlier. */
+/* Set the rotor's angles at the pulses: -lead_rad at sensor 1, pi/2 - lead_rad at sensor 2. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
 /* The torque line of a brushed motor; all numbers are > 0. */
@@ -203,9 +203,9 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
 /* === the rig on a carriage =================================================================== */
 /* The rig on a carriage that moves freely along a level rail, with arms in a level plane.
  *
- * Almesallmy (2006), I.3.2.2 and I.3.5: the load cell is between the shaft's pin and the carriage. It measures M/(M +
- * m) of the force on a fixed mount, with M the carriage's mass and m the eccentric mass. The carriage moves to and fro
- * with the amplitude X = S/(M + m) at any speed. S is the unbalance. */
+ * M is the carriage's mass, m the eccentric mass, and S the unbalance. The load cell is between the shaft's pin and the
+ * carriage. The cell measures the force of a fixed mount, times M/(M + m). The carriage moves to and fro with the
+ * amplitude S/(M + m) at any speed. Source: Almesallmy (2006), I.3.2.2 and I.3.5. */
 
 typedef struct wh_carriage {
     wh_real disc_m; /* distance of the discs' centres from the shaft */

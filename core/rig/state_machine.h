@@ -61,7 +61,7 @@ WH_C_BEGIN
     X(WH_END_DONE, "done") \
     X(WH_END_STOP_INPUT, "stop input") \
     X(WH_END_DRIVE_FAULT, "drive fault") \
-    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* the two share a line */ \
+    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* one wire signals either */ \
     X(WH_END_STOP, "stop command") \
     X(WH_END_HOST_LOST, "host lost") \
     X(WH_END_TRIP, "trip")

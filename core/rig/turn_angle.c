@@ -47,7 +47,7 @@ void wh_turn_angle_compensate(wh_turn_angle *angle, bool compensated, wh_real st
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
-    if (!(yields > WH_R(0.0)) || !(mean > yields)) { /* fixed mount, or inertia too small for D */
+    if (!(yields > WH_R(0.0)) || !(mean > yields)) {
         angle->twice_rad = WH_R(0.0);
         return;
     }

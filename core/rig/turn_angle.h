@@ -49,7 +49,7 @@ typedef struct wh_rotor_config {
     wh_real compensation_tolerance_rad; /* error of the compensation's angle, at 95 % */
     wh_real inertia_kgm2;               /* inertia before the first estimate */
     wh_real pulse_rad[2];               /* angle theta of the arms at a pulse of each sensor */
-    wh_real yields_kgm2;                /* D; 0: fixed mount. If D > 0, gravity must be 0. */
+    wh_real yields_kgm2;                /* D, the largest decrease of inertia; 0: fixed mount */
     wh_real yields_tolerance;           /* relative error of the quotient D / inertia, at 95 % */
 } wh_rotor_config;
 

@@ -15,7 +15,7 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Adds at most seven significant digits and eight decimals, because wh_line_number() reads at most nine digits. */
+/* Adds at most nine digits if |number| < 1e9, because wh_line_number() reads no more. */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
     wh_real size = WH_ABS(number);

@@ -11,7 +11,7 @@ static void forget(wh_line *line) {
     line->ended = false;
 }
 
-/* An arrow key sends Escape, [ or O, and more bytes up to a letter. These bytes must not begin the next line. */
+/* Is the byte part of an arrow key's escape sequence? */
 static bool belongs_to_key(wh_line *line, unsigned char byte) {
     const unsigned key = line->key;
     line->key = NO_KEY;

@@ -24,7 +24,7 @@
 
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
-/* The commands: X(name, maximum number of words after it, arguments, words) */
+/* The commands: X(name, maximum number of arguments, arguments in the help, description) */
 #define WH_COMMAND_ROWS(X) \
     X(help, 1, " [COMMAND]", "list the commands, or explain one") \
     X(id, 0, "", "program, board, version of this dialogue") \

@@ -20,7 +20,7 @@
 #define WH_LATER_STAGES(by, stage) \
     do { \
         WH_UNROLL \
-        for (unsigned s = 1; s < WH_STAGES; s++) { /* (by)->stages would spill registers */ \
+        for (unsigned s = 1; s < WH_STAGES; s++) { /* the bound (by)->stages spills registers */ \
             if (s >= (by)->stages) { \
                 break; \
             } \

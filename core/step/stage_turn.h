@@ -109,7 +109,7 @@ WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     }
 }
 
-/* Sets turn[i] to the sine, and the cosine minus 1, of the first rotation of wave i. rate[] has the angles' rates. */
+/* Sets turn[w] for the angle of wave w between stages 0 and 1. turn[w].cosine is the cosine minus 1. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES];
@@ -259,7 +259,7 @@ WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* Computes the pairs at stage `stage`, for a method with .places. The shear angles come from the accelerations. */
+/* Sets pair[] to the sines and cosines at stage `stage` of a method with .places. */
 WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_given accels, wh_turning *t, wh_wave *pair) {
     const wh_shares *of = &to->by->places->reach[stage];
@@ -406,7 +406,7 @@ typedef struct wh_turned_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real gained[WH_STAGES][WH_COORDS]; /* derivatives minus the first stage's */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* derivatives, summed over stages of equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* running sums over stages of equal weights */
 } wh_turned_first;
 
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,

@@ -65,7 +65,7 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
 
 #if WH_DOUBLE
 
-/* Returns x rounded to the nearest whole number, |x| < 2^51, and its low 32 bits in *low. */
+/* Returns the whole number nearest to x, and sets *low to the low 32 bits of this number. |x| must be < 2^51. */
 WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     const double sum = x + 6755399441055744.0; /* 1.5 * 2^52 */
     uint64_t of_sum;

@@ -1,4 +1,4 @@
-/* unroll.h: loops that generated code unrolls, and gcc optimizations that it switches off. Part of step.h. */
+/* unroll.h: pragmas for generated code that unroll loops and switch off gcc optimizations. Part of step.h. */
 #ifndef WH_UNROLL_H
 #define WH_UNROLL_H
 

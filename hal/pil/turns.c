@@ -26,7 +26,7 @@ static void receive(hal_turns *turns, wh_frame *frame) {
     }
 }
 
-/* Removes the readings that were taken, and appends new ones. */
+/* Removes the readings before turns->edge and turns->sample, and appends `news`. */
 static void keep(hal_turns *turns, const wh_readings *news) {
     wh_readings *all = &turns->readings;
     unsigned edges = 0;

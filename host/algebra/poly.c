@@ -16,7 +16,7 @@
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* Maps a number to an integer of the same order. Unlike `<`, this orders -0 before +0, and gives NaN a place. */
+/* If x < y, place_of(x) < place_of(y). The places of -0 and +0 differ. */
 static uint64_t place_of(double x) {
     const uint64_t bits = number_bits(x);
     return bits >> 63 != 0 ? ~bits : bits | UINT64_C(1) << 63;

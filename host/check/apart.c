@@ -164,7 +164,7 @@ static bool fit_rates(apart *a, const bool *may) {
     return move(a, may, by, a->x + a->n);
 }
 
-/* Changes only start values that the scene does not set or, if that fails, all. Driven coordinates never change. */
+/* Tries first to change only start values that the scene does not set. */
 static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     const apart before = *a;
     for (int all = 0; all < 2; all++) {

@@ -298,7 +298,7 @@ static bool find_rateless(books *b) {
 
 /* --- momenta that every motion conserves ---------------------------------------------------------------*/
 
-enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are searched */
+enum { FRAME_MOST = 24 };  /* largest number of momenta for find_frame() */
 #define FRAME_ASIDE_S 1e-5 /* half the duration of the motion in momenta_change(), s */
 #define FRAME_LEAST 1e-6   /* momentum changes below this part of the largest one are round-off */
 
@@ -332,8 +332,7 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Sets frame[] for each momentum in a conserved sum. The sums are the null vectors of a matrix, found by elimination.
- * Its rows are the changes of the n momenta at 2 n random states. */
+/* Sets frame[i] if momentum i is a term of a conserved sum of momenta. */
 static void find_frame(books *b) {
     const int n = b->image->count;
     const int rows = 2 * n;

@@ -42,7 +42,7 @@ typedef struct books {
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], divided by the unit round-off */
     double size_J;      /* largest |T| + |V| */
-    double rounding_J;  /* largest sampled energy change by the round-off of one step */
+    double rounding_J;  /* largest sampled energy change that round-off causes in one step */
     double computing_J; /* largest sampled round-off of the evaluation of the energy */
     double lost_J;      /* largest sampled energy that the ledger loses to underflow in one step */
     double rule_J;      /* error bound of the integration rule, over the whole run */
@@ -65,7 +65,7 @@ books *books_open(const image *im);
 void books_close(books *b);
 /* Call it at the start and after each step. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
-/* The residual of the energy: its change since the start, minus the work of inputs and losses; J. */
+/* Returns the energy now, minus the energy at the start, minus input_J, plus loss_J; J. */
 double books_left_J(const books *b);
 /* RMS over the run of (momentum - rateless[]); if frame[] is set, the standard deviation of this difference. */
 double books_momentum(const books *b, int unknown);

@@ -7,7 +7,7 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* === the run's own ledger (core/ledger.h), read by account ===================================== */
+/* === the run's own ledger (core/ledger.h) ====================================================== */
 
 typedef enum entry_source {
     SOURCE_ENERGIES, /* the term dL/dq in a momentum's account */

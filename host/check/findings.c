@@ -260,7 +260,7 @@ static bool see(void *of, uint64_t step) {
     return !pole_crossing_some(v->jumped);
 }
 
-/* Has a run with these settings no findings? Then sets s->good to them. */
+/* Runs the scene with settings *w. After a good run, sets s->good to *w. */
 static bool try(search *s, const request *w) {
     image with;
     if (!image_with(s->image, w, &with)) {
@@ -381,7 +381,7 @@ bool remedy_not_needed(const image *im, const engine_kind *kind) {
 
 static bool is_reported(const run_checks *v, finding_id id) { return v->found[id].reported; }
 
-/* Prints a hint about a cause that no smaller step removes. Returns false if there is none. */
+/* Prints a hint if no smaller step helps. Returns false if no hint was printed. */
 static bool say_cause(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const char *hint = NULL;
@@ -553,7 +553,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* WH_E_SINGULAR has no remedy: the holds permit several motions, and a step would select one of them */
+        /* after WH_E_SINGULAR no setting helps: the holds permit several motions */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

@@ -11,8 +11,7 @@
 
 /* Factor on the round-off bound, because the bound omits the round-off of library functions and of a step's sums. */
 #define ROUNDING_ROOM 8.0
-/* Least range of a column whose derivative is not in the state, as a part of the column's largest magnitude. Float
- * resolves about 1e-7 of this magnitude. */
+/* If a column has no rate, the column's range counts as at least this part of the column's largest |value|. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
 /* A position is constant if its range is small, relative to its magnitude (STAYS) or other ranges (BESIDE_OTHERS). */

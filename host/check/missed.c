@@ -473,7 +473,7 @@ struct missed {
     taylor_bounds *accel;      /* of the accelerations; NULL if not needed */
     bool hills;                /* the accelerations may have a narrow peak */
     bool smooth;               /* no acceleration has a kink */
-    bool edges;                /* a gap may have an edge */
+    bool edges;                /* has_edges(image) */
     taylor_bounds *laws;       /* of the contact laws; NULL if not needed */
     int *mode;                 /* [contacts] before the step */
     int *mode_to;              /* [contacts] after the step */

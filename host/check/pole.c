@@ -17,7 +17,7 @@ enum { HALVINGS = 56 };  /* enough to locate a sign change on the path, down to 
 enum { TURNS_MOST = 4 }; /* an expression with at least this many sign changes is round-off */
 #define NEAR 0.2
 #define FURTHER 1.4 /* ratio of successive distances at which the sign is tested */
-/* A value may touch zero if its tangents at the two ends cross below TOUCHES times the smaller end value. */
+/* Relative limit of pole_may_touch(). */
 #define TOUCHES 1e-3
 /* SECTIONS golden sections find the minimum of a value to its last digit. */
 #define GOLDEN 0.6180339887498949
@@ -170,7 +170,6 @@ static bool is_rounding(const looker *l, int i, double zero_at, double from, dou
     return turns >= TURNS_MOST;
 }
 
-/* Expression i overflows at distance `from`. Is it very large at the next distance at which it does not overflow? */
 static bool overflows(const looker *l, int i, double zero_at, double from) {
     const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
@@ -185,12 +184,12 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
 typedef struct spot {
     part in;
     double zero_at;
-    double nearest; /* smallest tested distance from the place */
+    double nearest; /* smallest tested distance from zero_at */
     int of;
     bool touches; /* the value has no sign change */
 } spot;
 
-/* NEAREST: number of nearest samples. NINE_TIMES: index of a sample about 9 times as far away as the nearest one. */
+/* Sample over[NINE_TIMES] is about nine times as far from zero_at as the last sample of over[]. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 #define LEFT 0.05 /* relative tolerance of the minimum in stands_off() */
 
@@ -209,7 +208,7 @@ static bool stands_off(double at_place, const double *over, double far) {
     return stands;
 }
 
-/* The first expression that grows as at a pole, or -1. The farthest sample is at the signed distance `far`. */
+/* Returns the first expression with a pole at s->zero_at, or -1. `far` is negative for the side below zero_at. */
 static int grows_from(const looker *l, const spot *s, double far) {
     const double zero_at = s->zero_at;
     const int values = l->way->values;
@@ -351,7 +350,7 @@ typedef struct denominators {
     divisor *divisor; /* [count] */
     int count;
     bool some_bend;
-    int *asked; /* [questions] indices of the image's expressions that may grow */
+    int *asked; /* [questions] indices in im->diagnostics.question[] */
     int questions;
     vector_field *field; /* for derived denominators; NULL if there are none */
 } denominators;

@@ -182,7 +182,7 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* Is an error with these two times reported? See FINDING_ACCURACY in finding.h. */
+/* The rule of FINDING_ACCURACY in finding.h. */
 static bool is_off(const run_checks *v, double until_s, double early_s) {
     return early_s <= RUN_CHECKS_BEGIN * v->doubling->end_s ||
            until_s >= RUN_CHECKS_GROWS * early_s;

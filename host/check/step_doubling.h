@@ -63,7 +63,7 @@ typedef struct step_doubling {
     uint64_t operations; /* operations of all steps of the finer run */
     double left_out;     /* estimated error of the run, divided by the runs' difference */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
-    bool refolded;       /* the finer run's constants have other roundings */
+    bool refolded;       /* the finer run's constants are from image.refolded[] */
     int columns; /* number of columns that are no outputs: the time, coordinates and rates */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */
@@ -100,7 +100,7 @@ void step_doubling_enter(step_doubling *t);
 void step_doubling_end(step_doubling *t, wh_status status);
 void step_doubling_free(step_doubling *t); /* NULL is fine */
 
-/* Estimated operations of both runs, including the run's search for events. */
+/* Estimated operations of a run and its search for events, plus step_doubling_finer_operations(). */
 double step_doubling_operations(const image *im);
 /* Estimated operations of the finer run, without its search for events. */
 double step_doubling_finer_operations(const image *im);

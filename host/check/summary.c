@@ -182,7 +182,7 @@ static void print_way(FILE *out, const opening *o, const records *r, int i, bool
             number_shown(swings ? o->high[i] : r->row[i]), c->unit->shown);
 }
 
-/* "x_cm moves from 0 m to 0.17 m, theta between -80 deg and 80 deg, and 1 more moves.": lengths, then coordinates. */
+/* Prints "x_cm moves from 0 m to 0.17 m, theta between -80 deg and 80 deg, and 1 more moves.", for example. */
 static void print_ways(FILE *out, const opening *o, const records *r) {
     bool *marked = alloc(r->columns, sizeof *marked);
     int moving = 0;

@@ -26,7 +26,7 @@ typedef char light_expected[LIGHT_EXPECTED];
 typedef enum light_verdict {
     LIGHT_EQUAL,
     LIGHT_DIFFERS,
-    LIGHT_NONE, /* the board or emulator cannot provide it */
+    LIGHT_NONE, /* the board or emulator does not provide this value */
     LIGHT_TOLD  /* nothing is expected */
 } light_verdict;
 

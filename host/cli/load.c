@@ -320,7 +320,6 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     return EXIT_BAD_INPUT;
 }
 
-/* Prints a note on dry friction that is written without `friction`. */
 static void say_hint(const instance *inst) {
     const symbol *on = NULL;
     const term *friction = hint_friction(inst, &on);

@@ -140,7 +140,7 @@ static bool open_line(monitor *m) {
     wire_forget(&m->wire);
     m->dialogue = (dialogue){.rate = (int)m->o->rate};
     if (m->line.is_line) {
-        /* end typed text, because the question must not continue it */
+        /* end an unfinished line of the user */
         (void)port_write(&m->line, "\n", 1);
         ask(m);
     }

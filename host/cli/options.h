@@ -67,8 +67,8 @@ typedef enum option_group {
 /* A command's help text. */
 typedef struct command_usage {
     const char *head;
-    unsigned groups;        /* groups of options in the help text */
-    bool described;         /* has a line for each option, not only the words of the options */
+    unsigned groups;        /* bits of option_group */
+    bool described;         /* if false, the help text only names the options */
     const char *tail;       /* or NULL */
     const char *why[EXITS]; /* meaning of each exit status (host/base/exit.h); all NULL: omitted */
 } command_usage;
@@ -116,7 +116,7 @@ void options_set(common_options *options, char *text);
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
-/* Is the word `name` or NAME=VALUE? */
+/* True if `word` is `name`, or begins with `name` and "=". */
 bool options_is(const char *word, const char *name);
 const char *options_value(int count, char **words, int at, const char *name);
 
@@ -202,7 +202,7 @@ bool target_read(const target_reader *reader, int count, char **words, common_op
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 
-/* Runs a whole command: prints the help text, or reads the words and works. Frees the options. Returns an exit code. */
+/* Prints the help text, or reads the words and calls work_on() or work(). Frees `common`. Returns an exit status. */
 int target_command(const target_reader *reader, int count, char **words, common_options *common,
                    void *options, const char **target);
 

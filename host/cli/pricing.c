@@ -122,10 +122,9 @@ const cost_board *pricing_board(const char *command, const char *value) {
     return chosen < 0 ? NULL : &cost_boards[chosen];
 }
 
-/* Limit of the operations of all trials without --effort. */
+/* Default of --effort, in operations. */
 #define EFFORT 1e9
 
-/* Reads --error, and the name of its quantity: X of --error X=0.1mm, or of --of X. */
 static bool read_error(pricing *p) {
     const char *text = p->value[PRICING_ERROR];
     const char *command = p->command;

@@ -85,7 +85,7 @@ typedef struct pricing {
     char *named;          /* the name in --error, owned */
     double error_si;
     double until_s; /* --horizon, or without it the end of the run */
-    double effort;  /* most operations of all trials */
+    double effort;  /* limit of --effort: operations of all trials together */
     bool method[WH_METHODS];
     char *words;  /* changes of the scene, as typed */
     char *target; /* the target, quoted for a shell */

@@ -254,7 +254,7 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
     return -1;
 }
 
-/* Would `whirl run` print a warning for the whole run at this pace? */
+/* Does a run at this pace need a remedy? */
 static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace) {
     const trial_source *from = t->request.source;
     char text[NUMBER_SIZE];

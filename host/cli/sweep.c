@@ -228,7 +228,6 @@ static void show_progress(double runs, void *context) {
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
-/* Estimated operations of all runs. A run with half of the scene's step counts twice. */
 static double operations_of(const grid *g, const image *base) {
     double runs = 0.0;
     for (int i = 0; i < AXES; i++) {

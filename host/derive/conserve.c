@@ -219,7 +219,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* if a force depends on the coordinate, a step cannot use G(q) = G(q0) + p t, because it does not know t */
+    /* integrate a coordinate on which a force depends */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (energy_momentum_is_linear(e, i)) {
         return true;

@@ -32,7 +32,7 @@ typedef struct symmetries {
  * result. */
 symmetries *symmetries_find(const equations *e);
 
-/* Returns the sum of row[i] * s->shift[i]: for a force row[], its power; for a contact's row J, the rate of the gap. */
+/* Returns the sum of row[i] * s->shift[i] over all coordinates. */
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row);
 
 #endif
