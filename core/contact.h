@@ -123,7 +123,7 @@ enum {
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 
-/* A scene's contacts, all constant. The functions are operation lists, like the accelerations. */
+/* A scene's contacts. The functions are operation lists, like the accelerations. */
 typedef struct wh_contact_system {
     const void *model;  /* first argument of the functions */
     wh_accel_fn *accel; /* accelerations without contact forces */
@@ -138,7 +138,7 @@ typedef struct wh_contact_system {
     uint8_t contacts;
     uint8_t forced;       /* number of contacts with a force: all except crossings */
     uint8_t kinds;        /* WH_KIND_BIT() of each kind with a force */
-    uint8_t pinned;       /* number of contacts with a pin */
+    uint8_t pinned;       /* number of contacts with wh_contact.pin >= 0 */
     uint8_t held;         /* number of holds without a pin */
     uint16_t evaluations; /* the value of WH_CONTACT_EVALUATIONS */
     wh_method method;

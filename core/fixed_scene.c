@@ -59,7 +59,7 @@ uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state)
     return hash;
 }
 
-/* Returns value 2^bits, exactly unless the result leaves the range of reals. */
+/* Returns value * 2^bits. */
 static wh_real scaled(wh_real value, int bits) {
     const wh_real by = bits < 0 ? WH_R(0.5) : WH_R(2.0);
     for (int left = bits < 0 ? -bits : bits; left > 0; left--) {
@@ -72,7 +72,7 @@ int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *satu
     const wh_real number = scaled(value, format->bits);
     const wh_real high = (wh_real)format->high; /* if wh_real is float, this rounds by up to 64 */
     const wh_real low = (wh_real)format->low;
-    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of an end */
+    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of `high` */
     if (!(number > low)) {
         *saturated += number >= low - (WH_R(1.0) + place * WH_ABS(low)) ? 0U : 1U;
         return format->low;

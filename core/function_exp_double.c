@@ -1,11 +1,11 @@
-/* function_exp_double.c: e^x in double. With x = k ln(2)/64 + r and |r| < 2^-7.5, e^x is 2^(k/64) e^r. A table of pairs
- * has 2^(i/64), and e^r is a series. */
+/* function_exp_double.c: e^x in double. With x = k ln(2)/64 + r and |r| < 2^-7.5, e^x is 2^(k/64) e^r. A table has the
+ * powers 2^(i/64), i = 0 ... 63. A series gives e^r. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define STEPS_PER_LN2 0x1.71547652b82fep6
-#define STEP_HIGH 0x1.62e42fefcp-7 /* 35 bits, so that the product with k is exact */
+#define STEP_HIGH 0x1.62e42fefcp-7 /* 35 bits: products with integers below 2^18 are exact */
 #define STEP_LOW (-0x1.c610ca86c3899p-43)
 
 /* Entry i is 2^(i/64). */

@@ -1,7 +1,7 @@
 /* function_sine_double.c: sine, cosine and tangent in double, for angles of any size. The angle's mantissa is
- * multiplied by those bits of 2/pi that its exponent requires (Payne and Hanek, ACM SIGNUM Newsletter 18 (1983) 1). The
- * product is the angle in quarter turns, modulo 4, with 190 bits after the binary point. No double is nearer to a
- * multiple of a quarter turn than 2^-62 quarter turns, so the remainder has at least 70 right bits. */
+ * multiplied by 192 bits of 2/pi, chosen by the angle's exponent (Payne and Hanek, ACM SIGNUM Newsletter 18 (1983) 1).
+ * The product is the angle in quarter turns, modulo 4. No double is nearer to a nonzero multiple of a quarter turn than
+ * 2^-62 quarter turns, so at least 70 bits of the remainder are correct. */
 #include "function_double.h"
 
 #if WH_DOUBLE

@@ -129,7 +129,7 @@ union wh_method_stages {
     WH_TABLEAUS(WH_METHOD_STAGES)
 };
 #undef WH_METHOD_STAGES
-/* The largest number of stages of an available row. */
+/* The largest number of stages in WH_TABLEAUS. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
 /* Stage j has the weight share[j] / parts. */

@@ -24,7 +24,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 
 /* Time from the start of a conversion until the input is held: one and a half clocks of 125 kHz (DS 26.4). */
 #define HELD_TICKS 12U
-/* Time from the middle of the sixteen conversions to the tick after the last one. */
+/* Time from the middle of the sixteen conversions to the tick at the end of the sixteenth. */
 #define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
 
 #define FULL 1023U

@@ -12,7 +12,7 @@
 _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
 static volatile bool driving; /* an interrupt may clear it, too */
-static uint16_t carried;      /* rounding error for the next control step, in parts */
+static uint16_t carried;      /* rounding error, in units of 1/PARTS of a PWM step */
 
 /* Sets timer 1 to duty 0. The order of the stores keeps the pin's output low (DS 17.6, 17.7.1, 17.8). */
 static void set_up_timer(void) {

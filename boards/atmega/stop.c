@@ -6,7 +6,7 @@
 
 bool hal_stop_pressed(void) { return (PINB & _BV(ATMEGA_STOP_BIT)) != 0; }
 
-/* The drive stage has no fault output, so only the stop contacts can press stop. */
+/* The drive stage has no fault output. */
 hal_stop_source hal_stop_source_now(void) { return HAL_STOP_INPUT; }
 
 bool hal_stop_heard(void) { return true; }

@@ -17,7 +17,7 @@ ISR(TIMER4_OVF_vect) {
     atmega_wraps++;
 }
 
-/* Sets both timers: noise canceller, rising edges, an eighth of the processor's clock, only the overflow interrupt. */
+/* Both timers count at F_CPU/8 and capture rising edges. */
 void atmega_time_base_start(void) {
     GTCCR = _BV(TSM) | _BV(PSRSYNC);
     TCCR4A = 0;

@@ -1,4 +1,4 @@
-/* trip_memory.h: keeps the record of a trip through a reset (hal/reset.h); the next start latches the trip again. */
+/* trip_memory.h: the record of a trip, kept during a reset (hal/reset.h). The next start latches the trip again. */
 #ifndef PROGRAMS_TRIP_MEMORY_H
 #define PROGRAMS_TRIP_MEMORY_H
 

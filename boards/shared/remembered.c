@@ -19,7 +19,7 @@ typedef struct remembered {
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-/* Not a member of `remembered`, because every control step writes it. */
+/* Not in `remembered`, so that writing kept_state in every control step needs no CRC. */
 BOARD_KEPT static uint32_t kept_state;
 
 static uint32_t crc_of(const remembered *slot) {

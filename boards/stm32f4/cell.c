@@ -150,7 +150,6 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* `laid` pairs are stored in DMA's memory. This shows which half was completed last, and how long ago. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

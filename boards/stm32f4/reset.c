@@ -33,7 +33,7 @@ void stm32f4_reset_start(void) {
     const bool faulted = board_kept_take_fault(&fault);
     cause = cause_of(reg_load(RCC_CSR) & all, knows_of_before, faulted);
     if (cause == HAL_RESET_POWER_ON) {
-        board_kept_forget(); /* memory survives a short power failure */
+        board_kept_forget();
     }
     reg_set(RCC_CSR, RCC_CSR_RMVF);
 }

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Numbers of records put and taken since the start, modulo 2^32. The ring has put - taken records. */
+/* Numbers of records put and taken since the start, modulo 2^32. */
 typedef struct stm32f4_ring_counts {
     volatile uint32_t put;
     volatile uint32_t taken;

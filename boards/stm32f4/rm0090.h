@@ -90,7 +90,7 @@
 #define GPIO_BSRR(port) (0x40020000U + 0x400U * (port) + 0x18U)
 #define GPIO_AFR(port, half) (0x40020000U + 0x400U * (port) + 0x20U + 4U * (half))
 
-/* DMA controller 2, 10.5. ADC1 uses channel 0 of stream 0. */
+/* DMA controller 2 (RM0090, 10.5). ADC1 uses channel 0 of stream 0. */
 #define DMA2_LIFCR 0x40026408U
 #define DMA2_S0_ALL_FLAGS 0x3DU
 #define DMA2_S0CR 0x40026410U

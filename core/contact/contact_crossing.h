@@ -1,8 +1,7 @@
 /* contact_crossing.h: the assignments of crossings, and the signs of their values.
  *
- * A crossing's mode is the sign of its value, +1 or -1, or 0 while the sign is undecided. The located time has an
- * error, so the value after the event is not exactly zero. If the value then reverses or stays constant, this error may
- * make it pass zero twice. Both passages count as one crossing. */
+ * A crossing's mode is the sign of its value, +1 or -1, or 0 while the sign is undecided. An event's time has an error.
+ * If this error makes the value pass zero twice, the two passages count as one crossing. */
 #ifndef WH_CONTACT_CROSSING_H
 #define WH_CONTACT_CROSSING_H
 
@@ -62,9 +61,8 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Decides the signs of the crossings in work->stands, whose values are zero within the error of location. The sign is
- * that of the value's first derivative or, if that is zero, of the second. If both are zero, the sign becomes 0. If the
- * sign is reversed, work->slack and work->due prevent a second event. */
+/* Decides the signs of the crossings in work->stands. The sign is that of the value's first derivative or, if that is
+ * zero, of the second. If the two derivatives are zero, the sign becomes 0. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -122,8 +120,7 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Sets the sign of each crossing without an event to the sign of its value. If the value is too near to zero, the sign
- * becomes or stays undecided (see work->due and work->stood). */
+/* Updates the signs of the crossings that have no event in the trial step. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;

@@ -14,7 +14,7 @@ typedef struct wh_contact_moment {
     unsigned events; /* contacts with an event, as bits */
     unsigned falls;  /* resting stops that are to open, as bits */
     wh_real h;       /* length of the step, s */
-    bool last;       /* the step allows no more moments, so a stop that is hit must rest */
+    bool last;       /* a stop that is hit must rest */
 } wh_contact_moment;
 
 WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work *w, unsigned bits,

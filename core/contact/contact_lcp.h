@@ -259,8 +259,7 @@ WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsign
     p->wanted[i] = wanted;
 }
 
-/* Returns the index of the contact that violates its complementarity condition, or `count`. *to gets its new limit. If
- * there are several such contacts, the one with the least number is chosen. */
+/* Returns the index of a contact that violates its complementarity condition, or `count`. *to gets a new p->at[]. */
 static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
                                               wh_contact_pivot *p, unsigned count, bool forces,
                                               const wh_real *way, int8_t *to) {
@@ -292,8 +291,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
     return wrong;
 }
 
-/* Solves for the forces lambda[count] of the contacts in member[] within their limits, or for impulses if !forces.
- * left[count] gets the residual accelerations or rates. Returns the contacts that give way, as bits. */
+/* Solves for the forces lambda[count] and the residual accelerations left[count] of the contacts in member[count]. If
+ * !forces, solves for impulses and residual rates. Returns the contacts that open or slide, as bits. */
 static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
                                       bool forces, wh_real *lambda, wh_real *left) {

@@ -102,7 +102,7 @@ static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_w
     return wh_contact_fallen(of, &before, &after);
 }
 
-/* Returns the hold that lost rank in an accepted trial step, or of->contacts. */
+/* Like wh_contact_lost(), but skips the tests if no hold can lose rank. */
 WH_INLINE unsigned wh_contact_flat(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                    wh_contact_state *from, wh_contact_state *to,
                                    const wh_real *input) {

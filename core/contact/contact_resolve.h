@@ -77,9 +77,8 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
 }
 
-/* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise these
- * are the frictions with the largest ratio of force to limit, because they would slide first under a load that grows
- * from zero. The caller then tests the other frictions again. */
+/* Returns, as bits, the stops in `giving` (bits) or, if there are none, the frictions in `giving` that are nearest to
+ * sliding: those with the largest ratio of force to limit. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);

@@ -252,7 +252,7 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
-/* A step with events in progress: trial steps from attempt->now to the step's end or to the next events. */
+/* The progress of one step, which consists of trial steps. */
 typedef struct wh_contact_progress {
     wh_contact_attempt *attempt;
     const wh_contact_state *end; /* state at the end of the step, when done */
@@ -260,13 +260,13 @@ typedef struct wh_contact_progress {
     wh_contact_log *log;
     wh_real h;
     wh_real left;    /* time from attempt->now to the step's end, s */
-    wh_real reach;   /* length of the next trial step, s: shorter than `left` after a dip */
+    wh_real reach;   /* length of the next trial step, s */
     unsigned round;  /* number of moments so far, at most WH_EVENTS_MAX */
     unsigned events; /* events at attempt->now, as bits */
-    unsigned flat;   /* the hold that lost rank (contact_rank.h), or of->contacts */
+    unsigned flat;   /* the hold that lost rank; of->contacts: none */
     bool calm;       /* the step ended without an event, and all values that it used were finite */
-    bool diverged;   /* a trial step left the bounds */
-    bool overran;    /* there were too many events */
+    bool diverged;
+    bool overran; /* there were too many events */
     bool done;
 } wh_contact_progress;
 
@@ -359,8 +359,7 @@ static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_conta
     p->reach = p->left;
 }
 
-/* Computes a trial step of length p->reach, unless one was made. Then accepts it, or shortens it to its first events,
- * or lets the next trial step end at a dip. */
+/* Makes a trial step of length p->reach, and accepts or shortens it. */
 static inline void wh_contact_progress_try(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -396,8 +395,7 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     }
 }
 
-/* Resolves the events at attempt->now. If a stop comes to rest at the last moment that a step allows, the step counts
- * as an overrun, because the body might have bounced. */
+/* Resolves the events at attempt->now. A stop that comes to rest in round WH_EVENTS_MAX counts as an overrun. */
 static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
                                               wh_contact_progress *p) {
     const bool last = ++p->round == WH_EVENTS_MAX;

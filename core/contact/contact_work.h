@@ -36,11 +36,11 @@ typedef struct wh_contact_work {
     wh_real slack[WH_CONTACTS_MAX];
     /* After wh_contact_turn_back(), a crossing's value has no certain sign up to this magnitude. */
     wh_real due[WH_CONTACTS_MAX];
-    /* Crossing whose sign is undecided: an earlier value. The sign is decided if |value - stood| exceeds |stood|. */
+    /* An undecided sign is decided if the value differs from stood[] by more than |stood[]|. */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates before the impulses of the present events */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, indexed by wh_contact.first_set */
-    unsigned moved;  /* bits: contacts whose signals a crossing's assignments changed */
+    unsigned moved;  /* bits: contacts that a crossing's assignments may have changed */
     unsigned mover;  /* the crossing whose assignments set `moved` */
     unsigned stands; /* bits: crossings at zero; wh_contact_turn_back() decides their signs */
     /* Crossings with an event are at zero, within the error of location. */

@@ -15,7 +15,7 @@
 
 /* The arguments of the checks, in flash (scene.c). */
 typedef struct wh_probes {
-    wh_real factor; /* 1 + r; its exact square, 1 + 2 r + r^2, rounds to 1 + 2 r */
+    wh_real factor; /* 1 + r, with r > 0 so small that factor * factor rounds to 1 + 2 r */
     wh_real square; /* 1 + 2 r */
     wh_real one;
     wh_real quarter_unit; /* a quarter of a unit in the last place of 1 */
@@ -42,7 +42,7 @@ typedef enum wh_probed {
     WH_PROBED_FIVE,
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD,   /* 7/3, but the divisor is a compile-time constant */
+    WH_PROBED_THIRD,   /* 7/3, with a divisor that the compiler knows */
     WH_PROBED_ZERO,    /* +0; it is -0 if the compiler drops the addition of 0 */
     WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
     WH_PROBED_LITERAL, /* 7/0.1; not 70 if the compiler rounds 0.1 from double to float */

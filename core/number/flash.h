@@ -8,7 +8,7 @@
  *      wh_real half = wh_flash_real(&table[1]);
  *
  * If WH_WORDS_FROM is defined (with a linker script that supports it: boards/atmega), constant strings stay in flash.
- * Their addresses begin at WH_WORDS_FROM, above all RAM. Code that reads a string in flash or RAM uses wh_word_at(). */
+ * Their addresses are at least WH_WORDS_FROM; RAM's are lower. wh_word_at() reads one character of a string. */
 #ifndef WH_FLASH_H
 #define WH_FLASH_H
 

@@ -114,7 +114,7 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     return true;
 }
 
-/* Like wh_phase_move(), but moves by steps/2, to the middle of the step. */
+/* Like wh_phase_move(), but moves by steps/2. */
 WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;

@@ -88,7 +88,7 @@ static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *sw
     return rotor->pulse_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Puts the integration at the first backward passage of the bottom. */
+/* Starts the integration at the first backward pulse of sensor 1. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(&swing->way,

@@ -88,7 +88,7 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-/* Index of sensor 1's position among the unknowns, which are the WH_FREE_ values and then both sensors' positions. */
+/* Index of sensor 1's position in wh_swing.x[]. The next element is sensor 2's position. */
 #define WH_SWING_PLACE WH_FREE_CAUSES
 
 #define WH_SWING_TURNING 6U /* maximum number of pulses stored from the turns before the swings */
@@ -122,11 +122,11 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    wh_real lead_rad;  /* angle from arms to sensor at a pulse, in either direction of rotation */
-    wh_real most_rad;  /* largest distance of a sensor from its nominal position, at 95 % */
+    wh_real lead_rad;  /* a pulse comes when the arms are this angle before the sensor */
+    wh_real most_rad;  /* 95 % of sensors are nearer than this to the nominal position */
     wh_real jitter_s;  /* standard deviation of the pulse times */
     wh_real rough_rad; /* further standard deviation of a pulse's angle: a coupling's twist etc. */
-    wh_real floor_rad; /* calibration uncertainty, 95 %: slot, lead, direction-dependent friction */
+    wh_real floor_rad; /* calibration uncertainty of a sensor's position, 95 % */
     wh_real wide_rad;  /* largest half_rad[0] of a useful result */
     wh_real off_rad;   /* a result is doubtful if |place_rad[0]| - half_rad[0] exceeds this */
     unsigned swings_least; /* least number of half swings */

@@ -44,17 +44,17 @@ typedef struct wh_guard_config {
     wh_real over; /* allowed excess over the commanded speed, as a fraction */
     /* Largest sum of wh_pulses.climb_radps and .climb_before_radps, as a fraction of the turn's speed. */
     wh_real climb;
-    wh_real climb_start_radps2;  /* largest rise of the speed while the control loop takes over */
-    wh_real climb_behind_radps2; /* largest rise while the speed lags behind the set-point */
+    wh_real climb_start_radps2;  /* largest rise of speed per second as the loop takes over */
+    wh_real climb_behind_radps2; /* largest rise per second while the speed lags behind */
     wh_real behind_radps;        /* climb_behind_radps2 applies above this lag */
     wh_real climb_there_radps2;  /* largest rise otherwise */
-    wh_real fall_radps;         /* 2 sqrt(S g / I): speed at the bottom after a fall from the top */
-    uint32_t lost_max;          /* number of pulses that may be lost in a run */
-    unsigned doubt_max;         /* largest wh_pulses.doubt */
-    uint32_t rejected_max;      /* number of pulses that may be rejected in a run */
-    wh_real silence_max_s;      /* longest time without a pulse, in closed loop */
-    wh_real slow_silence_max_s; /* the same while the rotor starts */
-    wh_real load_silence_max_s; /* longest time without a load sample */
+    wh_real fall_radps;          /* after a fall from the top: 2 sqrt(unbalance * g / inertia) */
+    uint32_t lost_max;           /* number of pulses that may be lost in a run */
+    unsigned doubt_max;          /* largest wh_pulses.doubt */
+    uint32_t rejected_max;       /* number of pulses that may be rejected in a run */
+    wh_real silence_max_s;       /* longest time without a pulse, in closed loop */
+    wh_real slow_silence_max_s;  /* the same while the rotor starts */
+    wh_real load_silence_max_s;  /* longest time without a load sample */
     /* The load counts as constant if it changes by less than this number times the square of the speed. */
     wh_real load_still_kgm;
     uint32_t stuck_pulses; /* a load that is constant over this many pulses is stuck */
@@ -216,7 +216,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* The limit is in pulses, not in time: a jammed rotor has a constant load, too, but no pulses. */
+    /* A jammed rotor gives no pulses, so its constant load does not raise still_pulses. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;

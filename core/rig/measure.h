@@ -88,7 +88,7 @@ typedef struct wh_measure {
     wh_lockin lockin;     /* lockin.turn is the last turn's load */
 } wh_measure;
 
-/* Begin a run, with the tare. Before the first run, *measure is all zeros. */
+/* Begin a run and drop the old tare. Before the first run, *measure is all zeros. */
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
 /* Process a confirmed pulse, in the order of time. */

@@ -23,7 +23,7 @@ typedef struct wh_observer_config {
     const wh_scene *scene;
     wh_real stall_Nm;      /* standstill torque of the scene's motor at an input of 1, > 0 */
     wh_real no_load_radps; /* motor speed without load at the rated voltage, > 0 */
-    /* The input per_drive * drive + per_radps * speed gives the scene's motor the torque of the rig's motor. */
+    /* Factors of the drive and the speed in the scene's input. The factors give the scene's motor the rig's torque. */
     wh_real per_drive;
     wh_real per_radps;
     /* The motor stage cannot brake: a voltage below the back-EMF makes no torque. */

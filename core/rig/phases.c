@@ -222,7 +222,7 @@ const char *wh_phase_text(wh_rig_phase phase) {
 /* Fractions of a turn by which a pulse may be early. */
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12)
-#define RECORD_PART WH_R(0.8) /* times record_band_radps / target_radps */
+#define RECORD_PART WH_R(0.8) /* as a part of record_band_radps / target_radps */
 /* For the first two pulses from rest, the bound uses this part of the commanded speed: the rotor is still slower. */
 #define FIRST_PART WH_R(0.8)
 /* The last one or two pulses of a braked rotor come at less than this speed. */

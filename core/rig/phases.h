@@ -53,7 +53,7 @@ typedef struct wh_run {
     uint32_t since_ticks;  /* start of the phase */
     uint32_t band_ticks;   /* time at which the speed entered the band */
     uint32_t closed_ticks; /* time at which the loop was closed */
-    uint32_t ample_ticks;  /* last time at which the supply sufficed */
+    uint32_t ample_ticks;  /* last time at which the supply sufficed for the set-point */
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
     wh_real off_radps; /* upper bound on the speed while the motor is off */
@@ -80,7 +80,7 @@ typedef struct wh_run_scene {
     uint32_t now_ticks;
 } wh_run_scene;
 
-/* Begin a run to target_radps > 0, with the tare. */
+/* Begin a run to target_radps > 0 in WH_PHASE_TARE. */
 void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
 /* Change the target, in any phase before WH_PHASE_RAMP_DOWN. A record in progress is dropped. */
@@ -111,7 +111,7 @@ wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint
 
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
-/* Returns the phase in words (wh_text_add()). The number WH_PHASES stands for a motor that is off and brakes. */
+/* Returns the phase in words, perhaps in flash: print the words by wh_text_add(). WH_PHASES gives "brake". */
 const char *wh_phase_text(wh_rig_phase phase);
 
 /* === bounds on the speed and time of the next slot pulse, from the drive's set-point ========= */

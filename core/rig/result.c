@@ -23,7 +23,7 @@
 #define REPEATS_LAG WH_R(0.4)    /* times psi E^2: effect of the damping */
 #define REPEATS_ARROW WH_R(1.6)  /* times E ripple_off_rad: effect of the ripple's error */
 #define REPEATS_CUT WH_R(0.29)   /* times `cut`: effect of a motor that cannot brake enough */
-#define REPEATS_TWICE WH_R(6.0)  /* times A: effect of the carriage */
+#define REPEATS_TWICE WH_R(6.0)  /* times wh_turn_angle.twice_rad: effect of the carriage */
 #define REPEATS_CELL WH_R(1e-4)  /* constant: nonlinearity of the cell */
 #define REPEATS_STEP WH_R(0.012) /* times (angle between samples)^2, rad^2: effect of sampling */
 
@@ -139,7 +139,7 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
 static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* The mean phase has the variance jitter2 / turns, because turns share pulses. scatter_N2 contains half of this. */
+    /* The mean phase has the variance jitter2 / turns. scatter_N2 contains half of that variance. */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->ratios == 0) {
         return shared;

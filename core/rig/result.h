@@ -117,7 +117,7 @@ typedef struct wh_measured {
     wh_real residual_N; /* rms of the load without its orders 0 to 2 */
     /* amplitude of the repeating residual: max(amplitude of harmonics 3 to 6, 1.27 * amplitude of harmonic 3) */
     wh_real repeats_N;
-    wh_real repeats_limit_N; /* largest repeats_N of a healthy rig with this noise */
+    wh_real repeats_limit_N; /* largest repeats_N that noise and a healthy rig cause */
     wh_real jitter_s;        /* standard deviation of the pulse times */
     wh_real inertia_kgm2;
     wh_real ripple_off_rad; /* error of the modelled speed ripple, from the load's second order */
