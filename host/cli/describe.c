@@ -110,17 +110,20 @@ static const command_usage check_usage = {
     .head =
         "usage: whirl check FILE|MECHANISM ...\n"
         "\n"
-        "Reads each FILE and derives its mechanisms and scenes, without running anything. Errors go to\n"
-        "standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
+        "Reads each FILE, derives its mechanisms and scenes, and checks that each scene can start. Errors\n"
+        "go to standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
     .why = {"every scene of every file can be run", NULL,
             "a file has an error, or cannot be read"}};
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in) {
-    const load_request request = {.use = IMAGE_TO_RUN, .hints = in == NULL};
+    const load_request request = {IMAGE_SETTINGS_DEFAULT, IMAGE_TO_RUN, .hints = in == NULL,
+                                  .conserve = true};
     loaded made;
     const int code = load(&made, from, of, in, NULL, &request);
+    const bool can = code != EXIT_DONE || in == NULL ||
+                     image_can_start(made.image, &engine_double, from->errors);
     unload(&made);
-    return code;
+    return can ? code : EXIT_BAD_INPUT;
 }
 
 static int derive_all(source_model *from) {

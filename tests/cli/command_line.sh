@@ -61,6 +61,16 @@ done >"$scratch/five.whirl"
 "$whirl" check "$scratch/five.whirl" 2>&1 | grep -o '^.*five.whirl:[0-9]*:[0-9]*: error' | sed 's/.*whirl//' | tr '\n' ' ' >"$scratch/places"
 [ "$(cat "$scratch/places")" = ":3:12: error :13:12: error :23:12: error " ]
 verdict $? "whirl check goes on after a mechanism with an error, without its scenes" "$scratch/places"
+for scene in 'start y = '-2 'start y = '-0.5 'start y = '0 'start y = '2 'conserve z' 'conserve y' 'conserve y, z'; do
+    unit=$(case $scene in start*) echo ' [m]' ;; esac)
+    printf "mechanism m\ncoordinate y [m]\ncoordinate z [m]\nT = 1 [kg]*(y'^2 + z'^2)/2\nV = 1 [N]*y\nstop y >= 0\nscene s { %s }\n" \
+        "$scene$unit; step 1 [ms]; until 10 [ms]" >"$scratch/start.whirl"
+    "$whirl" run "$scratch/start.whirl" >"$scratch/out" 2>"$scratch/runs" </dev/null
+    runs=$?
+    "$whirl" check "$scratch/start.whirl" >"$scratch/out" 2>"$scratch/err"
+    [ $? -eq $runs ] && cmp "$scratch/runs" "$scratch/err" >>"$scratch/out"
+    verdict $? "whirl check finds what run refuses: $scene" "$scratch/out"
+done
 for form in OCTAVE Matlab matlab; do
     "$whirl" derive epicyclic --as octave >"$scratch/octave" && "$whirl" derive epicyclic --as $form | cmp -s - "$scratch/octave"
     verdict $? "--as $form is --as octave"
