@@ -26,7 +26,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_VARY, BOTH, "--vary", "RANGE", \
       "use the worst error and cost over several values of a parameter, an input or a start " \
       "value. " \
-      "duty=0.2..0.8 takes three values, both ends included, duty=0.2..0.8:5 five. " \
+      "duty=0.2..0.8 takes three values, both ends included; duty=0.2..0.8:5 takes five. " \
       "Repeatable: all combinations, at most 64. The scene's own values are always " \
       "included.") \
     X(PRICING_METHOD, BOTH, "--method", "M,...", \
@@ -43,7 +43,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
       "the firmware's control rate: a whole number of steps per period (default: any step)") \
     X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \
-      "the processor's clock, with which the longest steps of a period must fit into it " \
+      "the processor's clock: a period's longest steps must fit into the period " \
       "(default: the board's own, if it is one chip)") \
     X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
       "the available flash; K, KB and KiB are 1024 bytes (default: the board's, if it is " \

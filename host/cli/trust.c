@@ -38,7 +38,7 @@ static const command_usage usage = {
         "  --csv FILE           a row for each coordinate and rate: name, unit, verdict, trusted time,\n"
         "                       range, largest error. Verdicts: end, until, still (a constant "
         "value),\n                       rounding (only round-off changes it), unknown"
-        " (unknown: double has too few\n"
+        " (double has too few\n"
         "                       digits). - is standard output; the report then goes to standard "
         "error.\n"
         "  --json               one JSON object on standard output instead of the report "

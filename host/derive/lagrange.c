@@ -345,7 +345,7 @@ static bool equations_check_solvable(equations *e, diags *errors) {
         taken = negative_part(e, &negative);
         diag_error(
             errors, taken != NULL ? taken->at : place_of(e->instance, TERM_T, 0),
-            "look for a negative mass or a product of two rates, such as x'*y'; or write the equations themselves, with state and equation",
+            "look for a negative mass or a product of two rates, such as x'*y'; or write the equations themselves, with 'state' and 'equation' statements",
             "the kinetic energy of '%s' is negative for some motion at every state tried",
             of->name);
         break;

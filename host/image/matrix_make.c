@@ -164,7 +164,8 @@ static bool is_nonlinear(const equations *e, const term *t) {
 }
 
 static void report_nonlinear(const image *im, const equations *e, diags *errors) {
-    static const char hint[] = "leave out --matrix, or make every statement and let linear";
+    static const char hint[] =
+        "leave out --matrix, or make every statement linear, including every 'let'";
     const mechanism *m = e->instance->mechanism;
     int k = 0;
     while (k < m->term_count && !is_nonlinear(e, &m->terms[k])) {

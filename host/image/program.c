@@ -224,7 +224,7 @@ static bool make_contacts(program *p, const linear_system *s, diags *errors) {
     if (map->form != WH_SECOND_ORDER) {
         diag_error(
             errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
-            "with stops, friction, holds or crossings Whirl cannot compute a coordinate's rate from its conserved momentum");
+            "in a scene with stops, friction, holds or crossings, Whirl cannot compute a coordinate's rate from its conserved momentum");
         return false;
     }
     if (!have_impulses(e, errors) || !have_finite_laws(e, errors)) {
@@ -336,7 +336,7 @@ static bool make_ledger(program *p, diags *errors) {
     if (map->form != WH_SECOND_ORDER) {
         diag_error(
             errors, m->at, "integrate the coordinate: --without conserve",
-            "with a ledger Whirl cannot compute a coordinate's rate from its conserved momentum");
+            "in a scene with a ledger, Whirl cannot compute a coordinate's rate from its conserved momentum");
         return false;
     }
     const int most = e->count + e->forces * (1 + e->count);

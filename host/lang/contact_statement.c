@@ -7,8 +7,8 @@
 /* === stop, friction and hold ================================================================== */
 
 void contact_on_system(parser *in, const contact_statement *each) {
-    diag_error(in->diags, each->at, "write the mechanism with coordinate, T, V, F and Q",
-               "'%s' is not possible in a mechanism with state and equation",
+    diag_error(in->diags, each->at, "write the mechanism with 'coordinate', T, V, F and Q",
+               "'%s' is not possible in a mechanism that is given by equations",
                contact_word(each->kind));
 }
 

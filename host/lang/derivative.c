@@ -261,8 +261,9 @@ static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
         diag_error(in->diags, rate->symbol.at, hint, "the rate of input '%s' must be in [%s]",
                    s->name, unit);
     } else if (made->is_system) {
-        diag_error(in->diags, s->at, "replace the input by a state and its equation",
-                   "an input with a rate is not possible in a mechanism with state and equation");
+        diag_error(
+            in->diags, s->at, "replace the input by a state and its equation",
+            "an input with a rate is not possible in a mechanism that is given by equations");
     } else if (rate->symbol.rate != NULL && rate->symbol.rate->rate != NULL) {
         diag_error(in->diags, rate->symbol.rate->at, "leave out the rate of the acceleration",
                    "'%s' is the acceleration of '%s', and an acceleration cannot have a rate",

@@ -592,7 +592,7 @@ static const expr *parse_comparison(parser *in) {
         return NULL;
     }
     if (at_comparison(in)) {
-        parser_fail(in, "join two comparisons with and: x > a and x < b",
+        parser_fail(in, "join two comparisons with 'and': x > a and x < b",
                     "a condition compares two expressions, not three");
         return NULL;
     }

@@ -133,11 +133,13 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     *events += 1;
     *sets += each->set_count;
     if (*events == CONTACTS_MAX + 1) {
-        diag_error(all, each->at, NULL, "more than %d stops, frictions, holds and whens in one run",
+        diag_error(all, each->at, NULL,
+                   "more than %d stops, frictions, holds and 'when' statements in one run",
                    CONTACTS_MAX);
     }
     if (*sets > SETS_MAX && *sets - each->set_count <= SETS_MAX) {
-        diag_error(all, each->at, NULL, "the whens of one run set more than %d values", SETS_MAX);
+        diag_error(all, each->at, NULL, "the 'when' statements of one run set more than %d values",
+                   SETS_MAX);
     }
 }
 
@@ -360,7 +362,7 @@ static void evaluate_durations(plan *from, instance *made) {
     }
     if (made->until_s > 0.0 && made->until_s < made->step_s * (1.0 - ROUNDING)) {
         diag_error(values->diags, at, "use a later until or a shorter step; until 0 takes no step",
-                   "until %.9g s is less than one step of %.9g s", made->until_s, made->step_s);
+                   "'until' is %.9g s, less than one step of %.9g s", made->until_s, made->step_s);
     }
 }
 

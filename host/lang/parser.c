@@ -364,7 +364,7 @@ bool statement_unknown(parser *in, unsigned where) {
     } else if (search.best != NULL && !parser_is_sign(in, '=')) {
         hint = parser_nearest(in, &search, NULL);
     } else if (parser_is_sign(in, '=') && in->all_effects) {
-        hint = "begin with set or start, or end the line before with a comma";
+        hint = "begin this line with 'set' or 'start', or end the previous line with a comma";
     } else if (parser_is_sign(in, '=')) {
         const int length = word.length > 30 ? 30 : (int)word.length;
         hint = arena_words(in->arena, "%s%sdeclare it: parameter %.*s = ..., or let %.*s = ...",

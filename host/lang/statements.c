@@ -235,10 +235,12 @@ static bool parse_name(parser *in, effect *made) {
     static const struct {
         word_id word;
         const char *as;
-    } meant[] = {{WORD_NONE, "`with none` selects no effect"},
-                 {WORD_LEDGER, "`with ledger` records the balances of energy and momentum"},
-                 {WORD_ALL, "`--with all` selects every effect"},
-                 {WORD_CONSERVE, "`--without conserve` integrates what a scene conserves"}};
+    } meant[] = {
+        {WORD_NONE, "`with none` selects no effect"},
+        {WORD_LEDGER, "`with ledger` records the balances of energy and momentum"},
+        {WORD_ALL, "`--with all` selects every effect"},
+        {WORD_CONSERVE,
+         "`--without conserve` integrates the coordinates of the scene's 'conserve' lines"}};
     const mechanism *into = in->builder->made;
     if (in->token.kind != TOKEN_NAME || in->token.primes > 0) {
         return parser_fail(in, word_row(WORD_EFFECT)->form, "an effect needs a name");
@@ -372,10 +374,10 @@ static void note_way(parser *in, const statement_word *word) {
     into->has_energies |= (word->rules & BY_ENERGIES) != 0;
     if (into->has_equations && into->has_energies && !into->mixed) {
         into->mixed = true;
-        parser_fail(
-            in, "use either coordinate with T, V, F, Q, or state with equation",
-            "'%s' is not possible in this mechanism: it began with the other kind of statements",
-            word->text);
+        parser_fail(in, "use either 'coordinate' with T, V, F and Q, or 'state' with 'equation'",
+                    "'%s' is not possible in this mechanism, which began with %s", word->text,
+                    (word->rules & BY_EQUATIONS) != 0 ? "'coordinate', T, V, F or Q"
+                                                      : "'state' or 'equation'");
     }
 }
 

@@ -29,7 +29,7 @@ COLUMN(contact_undefined, contact_kind, CONTACT_KIND_ROWS, CONTACT_UNDEFINED)
 #define CHOICE "write max(a, b), min(a, b) or sign(x); for a change at a moment, write when or hold"
 #define JUMP "for a step function write (1 + sign(x))/2; for a contact use stop, hold or when"
 #define COUNT \
-    "set a value at an event, because a run has no step counter: when x crosses 1 [m] rising { set x = 0 [m] }"
+    "the language has no rounding; to return to a value, set it at an event: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define PARAMETER "write: parameter m = 2 [kg]"
 #define RATE "write a derivative in time as a prime: x', x''"
 #define NOISE "add noise to an output: noise y deviation 0.01 [m] seed 7"
@@ -76,8 +76,8 @@ const char *first_word_hint(const char *text, size_t length) {
         {">=", CHOICE},
         {"<=", CHOICE},
         {"==", CHOICE},
-        {"&", "join two comparisons with and: x > a and x < b"},
-        {"|", "join two comparisons with or: x < a or x > b; for the size of x, write abs(x)"},
+        {"&", "join two comparisons with 'and': x > a and x < b"},
+        {"|", "join two comparisons with 'or': x < a or x > b; for the size of x, write abs(x)"},
         {"sgn", "write sign(x)"},
         {"pow", "write powers with ^: a^b"},
         {"ln", "write log(x), the natural logarithm"},

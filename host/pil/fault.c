@@ -476,12 +476,19 @@ bool fault_all_occurred(const fault_plan *plan) {
     for (unsigned i = 0; i < plan->count; i++) {
         const fault_case *f = &plan->fault[i];
         if (!f->happened) {
-            fprintf(
-                stderr, "whirl pil: error: the fault '%s' did not occur: %s\nhint: %s\n",
-                fault_rows[f->kind].word,
-                f->reached ? "the run ended before its time" : "its note did not get this value",
-                f->reached ? "use an earlier time, or a longer --until"
-                           : "the run's report prints the notes; its tape (--tape) has all values");
+            fprintf(stderr,
+                    "whirl pil: error: the fault '%s' did not occur: ", fault_rows[f->kind].word);
+            if (f->reached) {
+                fputs("the run ended before its time\n"
+                      "hint: use an earlier time, or a longer --until\n",
+                      stderr);
+            } else {
+                fprintf(stderr,
+                        "the note '%s' never had the value %g\n"
+                        "hint: read the notes in the run's report, or all their values on its "
+                        "tape (--tape FILE)\n",
+                        f->note, f->value);
+            }
             all = false;
         }
     }

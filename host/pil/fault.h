@@ -86,7 +86,7 @@ typedef enum fault_place {
     X(FAULT_RESET, "reset", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
       "the controller is reset, and starts again after this time") \
     X(FAULT_WATCHDOG_RESETS, "watchdog-resets", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
-      "without kicks the watchdog resets the controller: time until it starts again")
+      "without kicks, the watchdog resets the controller, which starts again after this time")
 #define FAULT_ORDER_ROWS(X) \
     X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", "computing is slower by this factor") \
     X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer is late by this time") \

@@ -301,7 +301,7 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
         return false;
     }
     if (!talk_is_same_hello(&hello, &t->hello)) {
-        return fail(t, "a hello that differs from the one before its reset");
+        return fail(t, "a hello after the reset that differs from its first hello");
     }
     return say(t, &frame);
 }

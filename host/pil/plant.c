@@ -97,12 +97,13 @@ static bool has_good_range(const bound *b) {
                (double)s->high / count <= (double)INT32_MAX;
     }
     if (!good) {
-        fprintf(stderr,
-                "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per "
-                "count, every %u ticks\nhint: change the declaration: low <= high, and for a "
-                "sample a period and a value per count above zero, with counts of 32 bits\n",
-                s->name, (double)s->low, (double)s->high, (double)s->per_count,
-                (unsigned)s->period_ticks);
+        fprintf(
+            stderr,
+            "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per "
+            "count, every %u ticks\nhint: declare low <= high; a sample also needs a period and a "
+            "value per count above zero, and a range of 32-bit counts\n",
+            s->name, (double)s->low, (double)s->high, (double)s->per_count,
+            (unsigned)s->period_ticks);
     }
     return good;
 }

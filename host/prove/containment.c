@@ -304,9 +304,8 @@ static void print_state(FILE *out, const containment_found *h, const containment
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
     if (!s->begun) {
         fprintf(out, "%-12s within %s %s: %s\n", "never", within, shown,
-                s->verdict == CONTAINMENT_LEFT
-                    ? "proved: the error is too large at the start"
-                    : "the start value is known less accurately than that");
+                s->verdict == CONTAINMENT_LEFT ? "proved: the error is too large at the start"
+                                               : "the uncertainty of the start value is larger");
         return;
     }
     fprintf(out, "%-12s within %s %s: error at most %s, width of the tube %s%s\n",

@@ -467,9 +467,10 @@ static bool read_measures(const meter *m, double *value, point_notes *notes) {
         value[i] = gauge_result(&m->gauges[i], m->image->step_s, epsilon);
         const bool no_period = isnan(value[i]) && m->gauges[i].kind == MEASURE_PERIOD;
         if (!isfinite(value[i]) && !no_period) {
-            fprintf(m->reason,
-                    "the measure '%s' is not a finite number: its expression is too large",
-                    all->list[i].name);
+            fprintf(
+                m->reason,
+                "the measure '%s' is not a finite number: the values of its expression are too large",
+                all->list[i].name);
             return false;
         }
     }

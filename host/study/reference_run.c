@@ -217,7 +217,7 @@ static double time_of(const reference_request *w, int record) {
 
 static void say(const reference_request *w, reference *r, uint64_t steps, int reached) {
     r->how = alloc_words(
-        "%s in double with compensated sums and steps of %.6g s; the second reference has twice that step; both compute sines and events as the run does without --tables",
+        "%s in double with compensated sums and steps of %.6g s; the second reference has twice that step; both compute sines and events like the run, but without --tables",
         wh_methods[w->by.steps > 0 ? w->by.method : METHOD].word, time_of(w, 1) / (double)steps);
     if (r->records < reached) {
         r->why = alloc_words(

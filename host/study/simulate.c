@@ -232,8 +232,8 @@ static void say_clamped(const simulation *sim) {
         statement_text(sim->image->contact[c.contact].at, statement, sizeof statement);
         fprintf(stderr,
                 "whirl run: warning: the restitution was outside 0 .. 1 in %" PRIu64
-                " impact%s, first %.6g in the step after t = %.6g s: Whirl used %d instead, in "
-                "%s\nhint: limit the expression: restitution"
+                " impact%s; the first value was %.6g, in the step after t = %.6g s. Whirl used %d "
+                "instead, in the statement: %s\nhint: limit the expression: restitution"
                 " max(0, min(1, ...))\n",
                 c.count, c.count == 1 ? "" : "s", c.value, c.begin_s, c.value > 1.0 ? 1 : 0,
                 statement);

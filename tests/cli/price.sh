@@ -228,7 +228,7 @@ verdict $? "again, to the bit"
 
 # --- contacts: no price on a board, but evaluations that were counted ----------------------------------------------
 "$whirl" price ball_bounces --effort 5e7 --csv "$scratch/b.csv" >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 0 ] && grep -q 'eval./s' "$scratch/out" && grep -q 'both compute sines and events as the run does' "$scratch/out"
+[ $? -eq 0 ] && grep -q 'eval./s' "$scratch/out" && grep -q 'both compute sines and events like the run' "$scratch/out"
 verdict $? "a scene with contacts: by evaluations, and its reference says what it is" "$scratch/out"
 awk -F, 'NR > 1 { n++; if ($8 != "evaluations" || $9 != "measured" || !($7 > 0)) { bad = 1 } } END { exit bad || n < 10 }' "$scratch/b.csv"
 verdict $? "which are measured" "$scratch/b.csv"

@@ -130,7 +130,7 @@ done
 exits 2 "error: this would take about [1-9][0-9]* s:" thomson_a --until 1e3s --effort 1e4
 exits 2 "error: this would take about [1-9][0-9]* ms:" thomson_a --until 1s --effort 1e4
 exits 2 "^hint: use an earlier --until, .*; or --effort [0-9.e+]*$" thomson_a --until 1e5s
-exits 2 "is less than one step" thomson_a --until 0.0001s
+exits 2 ", less than one step of" thomson_a --until 0.0001s
 exits 2 "there is no file and no built-in scene" nothing
 exits 2 "takes only one scene" thomson_a thomson_b
 exits 2 "unknown option '--plot'" thomson_a --plot x.svg

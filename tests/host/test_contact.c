@@ -668,8 +668,8 @@ TEST(contact_stops, impossible_restitutions_are_warned_of) {
         if (warning != NULL) {
             double value;
             double begin_s;
-            const char *rest = said_number(strstr(warning, "first ") + 6, &value);
-            said_number(said_words(rest, "in the step after t ="), &begin_s);
+            const char *rest = said_number(strstr(warning, "value was ") + 10, &value);
+            said_number(said_words(rest, ", in the step after t ="), &begin_s);
             expect_between("restitution", e - 1e-5, e + 1e-5, value);
             expect_between("its step", speed / G - 1.001e-3, speed / G + 1e-6, begin_s);
             told++;

@@ -301,7 +301,7 @@ static void test_how_many_values_one_run_sets(void) {
     TEST_ASSERT_EQUAL_INT(84, m->contacts[1].set_count);
     TEST_ASSERT_NOT_NULL(instance_of(-1, NULL));
     refuse(-1, &(overrides){.with = b, .with_count = 1},
-           "the whens of one run set more than 128 values");
+           "the 'when' statements of one run set more than 128 values");
 }
 
 SUITE(contact_run) {

@@ -108,9 +108,9 @@ static void test_wrong_overrides(void) {
 static void test_until_holds_a_step(void) {
     parse(sample);
     expect_refused(&(overrides){.until = "1s", .step = "3s"},
-                   "<command line>:1:1: error: until 1 s is less than one step of 3 s");
+                   "<command line>:1:1: error: 'until' is 1 s, less than one step of 3 s");
     expect_refused(&(overrides){.until = "0.99ms", .step = "1ms"},
-                   "error: until 0.00099 s is less than one step of 0.001 s");
+                   "error: 'until' is 0.00099 s, less than one step of 0.001 s");
     instantiate(&(overrides){.until = "0", .step = "3s"});
     expect_exactly(0.0, made->until_s);
     instantiate(&(overrides){.until = "3", .step = "3s"});

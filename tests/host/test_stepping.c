@@ -134,7 +134,7 @@ TEST(stepping, failed) {
         {"mechanism m\nstate x\nequation x' = 0*x/(1 [s])\n"
          "scene s { step 1 [ms]; until 0.1 [s] }\n",
          "mean(1e308*(1 + x))", 0.0,
-         "the measure 'mean(1e308*(1 + x))' is not a finite number: its expression is too large"}};
+         "the measure 'mean(1e308*(1 + x))' is not a finite number: the values of its expression are too large"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         measured_point p =
             measured_run(rows[i].text, &rows[i].measure, 1, &engine_double, rows[i].from_s);
