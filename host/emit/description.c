@@ -1,4 +1,4 @@
-/* description.c: an image as JSON, and for readers. */
+/* description.c: the contents of an image, as JSON or as text. */
 #include "host/emit/emit.h"
 
 #include <inttypes.h>

@@ -60,7 +60,8 @@ typedef struct engine_kind {
     uint64_t (*saturated)(const void *run);
     /* The unit to which component i is rounded; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
-    engine_clamped (*clamped)(const void *run); /* NULL: this number type has no impacts */
+    /* The impacts with clamped restitution since the start. NULL: this number type has no impacts. */
+    engine_clamped (*clamped)(const void *run);
     /* The pieces of the last step, if it was searched for events; else an empty list. NULL: not available. */
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;

@@ -358,7 +358,6 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 /* === ranges of values ========================================================================= */
 /* The turn angles are divided into cells, because over a whole turn a denominator's interval often contains zero. */
 
-/* CELLS_LEAST to CELLS_MOST: cells per turn. CELLS_ALL and CELLS_ALL_MOST: cells of all turn angles together. */
 enum {
     CELLS_LEAST = 4,
     CELLS = 64,

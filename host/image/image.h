@@ -84,7 +84,7 @@ typedef enum image_role {
     IMAGE_ROLES
 } image_role;
 
-/* Results of IMAGE_BOOKS after its `count` highest derivatives. BOOK_MOMENTA is the first of `count` momenta. */
+/* Add image.count to get the index of a result of IMAGE_BOOKS. BOOK_MOMENTA is the first of image.count momenta. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* The unit in which a number is displayed, and its SI unit. */

@@ -61,7 +61,7 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 
 #define SAME_PIECE 1e-13 /* coefficients with a smaller relative difference count as equal */
 #define CANCELLED 1e-14  /* a sum below this, relative to its addends, counts as zero */
-#define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
+#define MULTIPLE_MAX 8   /* largest k in cos 2kx */
 #define INDICES (MULTIPLE_MAX + 1)
 #define GROWTH_MAX 8.0
 
@@ -462,7 +462,7 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* In this file, at most one argument of a call enters operations: C does not fix the arguments' order of evaluation. */
+/* At most one argument of each call may add operations to the list: C does not order the evaluation of arguments. */
 static int wave_node(lowering *l, int i, trig which);
 
 static int waves_product(lowering *l, int p, trig of_p, int q, trig of_q) {

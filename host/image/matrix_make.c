@@ -258,8 +258,7 @@ static void in_units(double_double *a, int i, double by, int states, int columns
     }
 }
 
-/* Balances A by powers of two, so that corresponding rows and columns have similar sizes (Parlett & Reinsch, Numerische
- * Mathematik 13 (1969) 293). Otherwise a stiffness of 1e9 N/m next to a rate of 1e-3 m/s would need many halvings. */
+/* Balances A by powers of two (Parlett & Reinsch, Numerische Mathematik 13 (1969) 293). */
 static void balance(double_double *a, double *unit, int states, int columns) {
     for (int i = 0; i < states; i++) {
         unit[i] = 1.0;

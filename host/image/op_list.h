@@ -1,7 +1,6 @@
 /* op_list.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
  * interpreter (host/engine) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
- * results, so interpreter and C give the same bits. Equal operations are entered once. Constants are folded. Signs move
- * outwards, and vanish into subtractions. */
+ * results, so interpreter and C give the same bits. Equal operations are entered once. Constants are folded. */
 #ifndef IMAGE_OP_LIST_H
 #define IMAGE_OP_LIST_H
 

@@ -81,7 +81,6 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Can a constant of this product or quotient absorb any factor? */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -540,7 +539,7 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-#define CLEARLY 0.5 /* a clearly better list has less than this times the best bias */
+#define CLEARLY 0.5 /* a clearly better list's bias is less than CLEARLY times the best bias */
 #define LESS 0.99   /* a better list's bias is less than LESS times the best bias */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }

@@ -37,7 +37,7 @@ typedef struct op_list_needs {
     const op_list *t;
     struct arena *memory; /* owns every array of the analysis */
     int *before;          /* [t->count] for a phase, the previous phase; else -1 */
-    bool *given;          /* [t->count] true if it is loaded, not computed, such as a sine */
+    bool *given;          /* [t->count] true: the operation's value is loaded, not computed */
     int *first;           /* [t->count + 1] index in `user` of each operation's first user */
     int *user;            /* users of operation 0, then those of 1, ...; each group ascends */
 } op_list_needs;
@@ -108,8 +108,7 @@ static op_list_needs op_list_needs_of(const op_list *t) {
 typedef struct registers {
     int value[OP_LIST_REGISTERS];
     int count;
-    /* [ops]: position of the value's next use, or INT_MAX; a result is used after the end */
-    int *next;
+    int *next;    /* [ops] position of the value's next use; INT_MAX: none */
     bool *stored; /* [ops] memory has a copy */
     int carried;  /* loads and stores so far */
 } registers;

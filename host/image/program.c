@@ -38,7 +38,6 @@ static op_list *enter(layout *map, const poly **wanted, int count) {
     return enter_ready(map, wanted, count);
 }
 
-/* Zeroed memory for polys, which the equations own. */
 static const poly **polys(const layout *map, int count) {
     return algebra_room(map->equations->algebra, count, sizeof(const poly *));
 }
@@ -65,7 +64,7 @@ static op_list *make_sets(layout *map) {
     return count > 0 ? enter(map, wanted, count) : NULL;
 }
 
-/* The list has, for each contact with a force, the numbers of its law, its row J, and its response M^-1 J^T. */
+/* For each contact with a force, enters the law's numbers, then row J, then M^-1 J^T. */
 static op_list *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
@@ -249,7 +248,7 @@ typedef struct entries {
     image_draft *draft;
     image_ledger *ledger;
     const layout *map;
-    const poly **power; /* [ledger->smooth] rates of the entries */
+    const poly **power; /* [ledger->smooth] */
 } entries;
 
 /* Adds an entry, unless its rate is zero. `at` may be NULL. */

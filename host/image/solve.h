@@ -15,8 +15,7 @@ typedef struct linear_system {
     const symbol *const *unknown; /* [n] */
     const bool *turning;          /* [n] true: the unknown is an angle. It is not scaled */
     const bool *wanted;           /* [n] the unknown's solution is needed, so its cost counts */
-    /* true: only wanted solutions must be correct, so more arrangements are possible. Models with contacts need false,
-     * because the contacts use the same matrix: another arrangement would change the bits of their steps. */
+    /* true: only the wanted solutions must be correct. `sparing` must be false if the model has contacts. */
     bool sparing;
     /* true: no hinge is eliminated. Elimination of hinges multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
     bool precise;

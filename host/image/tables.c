@@ -460,7 +460,7 @@ static product_sum sum_of(collecting *c, int i) {
     case OP_MAX:
     case OP_CALL:
     case OP_POW: return function_of(c, o);
-    case OP_ACCEL: /* not in the list of a step */
+    case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
     case OP_NOISE:

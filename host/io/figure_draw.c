@@ -18,7 +18,7 @@ typedef struct figure {
     int panels;
     int curves;       /* curves in this panel */
     int named;        /* curves in the legend */
-    bool varied;      /* the runs have changed options: omit marks of the original motion */
+    bool varied;      /* the runs have changed options */
     double trusted_s; /* trusted time of this panel's curves; 0: no limit */
     char *plot;       /* gnuplot text of the curves */
     char *xlabel;

@@ -19,8 +19,8 @@ void decimation_free(decimation *v); /* NULL is allowed */
 /* Adds row[columns] of the next step. A bucket ignores a column's non-finite values if it also has finite ones. */
 void decimation_enter(decimation *v, const double *row);
 
-/* Returns the rows to draw, which the caller frees. If `samples`, or while buckets have one step, each bucket is one
- * row. Otherwise it is two rows, with each column's extremes in their order of time. */
+/* Returns the rows to draw, which the caller frees. If buckets have one step, or if decimation_new() had
+ * `samples`, each bucket gives one row. If not, each bucket gives two: each column's extremes, in order of time. */
 double *decimation_rows(const decimation *v, int *rows);
 
 #endif

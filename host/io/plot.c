@@ -789,7 +789,7 @@ static void write_signs(FILE *to, const plot_run *runs, int count) {
     }
 }
 
-/* Writes a panel. `ylabel` is freed; NULL: quantities and unit. */
+/* Frees `ylabel`. */
 static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time,
                         char *ylabel) {
     extent e = nothing;

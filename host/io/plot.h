@@ -38,7 +38,8 @@ void plot_run_close(plot_run *run);
  * error. Returns false after an error (reported). Call plot_run_close() in any case. */
 bool plot_run_read(const char *command, const char *csv, plot_run *run);
 
-/* Writes CSV.toml: the lines `facts`, data about the run, the lines `tables`. Returns false (reported) on failure. */
+/* Writes CSV.toml: first the text `facts`, then the run's data, then the text `tables`. Returns false after an error
+ * (reported). */
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 
 /* Calls atomic_file_close(). If that kept a regular file, also writes CSV.toml: Whirl's version, `command` and `scene`

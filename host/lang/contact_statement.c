@@ -205,7 +205,6 @@ static bool parse_set(parser *in, contact_statement *made) {
                           &made->set_count);
 }
 
-/* Reads set ITEM {, ITEM}. A line may end after a comma. */
 static bool parse_sets(parser *in, contact_statement *made) {
     if (!parser_expect_word(in, WORD_SET, WORD_WHEN)) {
         return false;

@@ -81,9 +81,9 @@ struct expr {
     dimension dim;
     int height;          /* leaf: 1; name of a let or output: 1 + height of its expression */
     int order;           /* highest derivative of a coordinate or state, also within lets */
-    unsigned uses;       /* USES_ bits, also within lets */
+    unsigned uses;       /* USES_ bits; a let or output has those of its expression */
     bool is_condition;   /* a condition: true while above zero; arithmetic refuses conditions */
-    const symbol *angle; /* if an angle: a symbol in it whose unit is not rad; otherwise NULL */
+    const symbol *angle; /* a symbol in a unit such as deg that makes the value an angle; or NULL */
 };
 
 enum {

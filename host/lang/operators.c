@@ -320,7 +320,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     switch (function_takes(function)) {
     case TAKES_RATIO:
         common_dimension(in, at, left, right, words, "and");
-        made->uses |= USES_UNIT; /* the value is in radians, so no unit is missing */
+        made->uses |= USES_UNIT;
         break;
     case TAKES_CHOICE:
         made->dim = common_dimension(in, at, left, right, words, "and");
@@ -350,7 +350,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
                        dimension_words(in, left->dim));
         }
         if (function == FN_ASIN || function == FN_ACOS || function == FN_ATAN) {
-            made->uses |= USES_UNIT; /* the value is in radians, so no unit is missing */
+            made->uses |= USES_UNIT;
         }
         break;
     }

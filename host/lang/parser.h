@@ -87,7 +87,7 @@ typedef struct parser {
     const char *const *around; /* see override_parse() */
     const char *condition_at;  /* start of the current comparison in the text */
     int effect;                /* index of the current effect, or -1 */
-    bool all_effects;          /* names of every effect are allowed, as in a scene */
+    bool all_effects;          /* names that any effect declares are allowed, as in a scene */
     bool bare_units;           /* units may stand without brackets, as on the command line */
     names *names;              /* names of the mechanism, or NULL */
     builder *builder;          /* the mechanism of the current statement or scene, or NULL */

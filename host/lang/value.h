@@ -37,7 +37,7 @@ typedef struct valuation {
     signed char *parameter_state; /* [parameter_count] evaluation: 0 not begun, 1 begun, 2 done */
     double *let;                  /* [let_count] */
     bool *let_known;              /* [let_count] */
-    const double *input;          /* [input_count] SI; NULL: expressions may contain no input */
+    const double *input;          /* [input_count] SI; NULL: the value of an input is NaN */
     double *const *state;         /* [coordinate_count][0 .. primes_most] SI, or NULL */
     int primes_most;
     int depth; /* current depth of the recursion through the parameters' expressions */

@@ -30,7 +30,7 @@ typedef struct wire {
     bool line_done;
     bool torn;        /* the line may begin with a frame's bytes */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
-    uint64_t damaged; /* chunks between zeros that are no frame */
+    uint64_t damaged; /* number of invalid chunks so far */
 } wire;
 
 /* Takes the next byte. The line feed that ends a text is not stored. */

@@ -126,8 +126,7 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* Records the loss of digits of x in a function with a small slope, such as cos(1e-9). No loss is recorded for
- * sin(90 deg): its computed slope is only round-off. `turns`: the function is a sine, cosine or tangent. */
+/* Records the loss of digits of x in a function with a small slope, such as cos(1e-9). */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));

@@ -26,7 +26,7 @@ enum { FOLDING_NEAREST, FOLDING_OPPOSITE, FOLDING_APART, FOLDING_SOME, FOLDING_W
 enum { FOLDING_RESTS = 256 };
 typedef struct folding {
     int way;
-    double lost;                /* largest relative loss; 1: no digit is correct */
+    double lost;                /* largest recorded relative round-off; 1: no digit is correct */
     int rests;                  /* number of residues */
     double rest[FOLDING_RESTS]; /* absolute values of the residues */
 } folding;
@@ -36,7 +36,7 @@ typedef struct folding {
 folding *folding_use(folding *f);
 int folding_way(void);
 
-/* These functions record losses if the way is FOLDING_NEAREST. */
+/* If folding.way is FOLDING_NEAREST, these functions update folding.lost and folding.rest. */
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);

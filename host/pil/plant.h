@@ -150,7 +150,8 @@ bool plant_advance(plant *p, double until_ticks);
 /* Restarts the timer, and drops pending readings. */
 void plant_restart(plant *p);
 
-/* Moves the readings that are due from the plant's queues to `readings`. */
+/* Moves the due readings from the plant's queues to `readings`. Readings beyond WH_EDGES_MAX edges or WH_SAMPLES_MAX
+ * samples are lost. */
 void plant_read(plant *p, wh_readings *readings);
 
 #endif

@@ -14,7 +14,7 @@
 #include "host/os/guest.h"
 
 /* === the reader =============================================================================== */
-/* A tape has the line's frames: a hello, then readings and orders in turns. Each restart adds a hello and a reset. */
+/* A tape begins with a hello. Then readings and orders alternate. Each restart adds a hello and a reset. */
 
 typedef struct taped {
     const char *name;

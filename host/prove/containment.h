@@ -16,7 +16,7 @@ typedef struct containment_request {
     const engine_kind *kind;
     double tolerance;
     const double *within; /* [states] allowed errors, SI; 0 means tolerance * the state's range */
-    double products_most; /* limit on products of enclosures; 0: none */
+    double products_most; /* limit on the number of products of enclosures; 0: no limit */
     /* Called at the start and at each step's end that the tube reaches. exact[states] encloses the exact motion;
      * run[states] has the run's values. Both are in SI. `see` may be NULL. */
     void (*see)(void *context, uint64_t step, const enclosure *exact, const double *run);
@@ -25,7 +25,7 @@ typedef struct containment_request {
 } containment_request;
 
 typedef enum containment_verdict {
-    CONTAINMENT_TO_THE_END, /* proved at every step's end */
+    CONTAINMENT_TO_THE_END, /* the error is proved to be within the tolerance at every step's end */
     /* proved until until_s; at the next step's end, the error is proved to exceed the tolerance */
     CONTAINMENT_LEFT,
     CONTAINMENT_UNDECIDED, /* proved until until_s; then the tube is too wide to decide */
@@ -44,7 +44,7 @@ typedef enum containment_end {
 typedef struct containment_state {
     containment_verdict verdict;
     bool open;
-    bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
+    bool begun;   /* the error is within the tolerance at the start; if not, nothing is proved */
     double range; /* greatest minus least value in the run, at least 1e-3 of the largest |value| */
     /* allowed error, SI: as requested, or from the tolerance and the ranges */
     double within;

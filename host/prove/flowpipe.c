@@ -338,10 +338,10 @@ struct flowpipe {
     taylor *over;     /* Taylor coefficients over `stay`, up to `order` + 1 */
     double *centre;   /* [states] a point of the tube is `centre` plus `off` */
     zonotope *off;    /* deviation from the centre */
-    enclosure *box;   /* [states] box of the points, along the state axes */
+    enclosure *box;   /* [states] box that contains `centre` plus `off` */
     double *axes;     /* [states * states] axes that turn with the motion */
     enclosure *along; /* [states] box of `off` along `axes` */
-    enclosure *turn;  /* [first + 1][states * states] derivatives of coefficients along `axes` */
+    enclosure *turn;  /* [first + 1][states * states] slopes of Taylor coefficients along `axes` */
     enclosure *stay;  /* [states] contains the motion during the whole step */
     double *largest;  /* [states] largest absolute value so far */
     double open_s;    /* length of the open step; 0: none */
@@ -412,7 +412,7 @@ static enclosure polynomial(const flowpipe *t, int i, int entry, int order, encl
     return sum;
 }
 
-/* Lagrange's remainder: tau^(order + 1) times the next coefficient over `stay`. */
+/* Lagrange's remainder of the Taylor polynomial. */
 static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
     return enclosure_mul(enclosure_whole_power(tau, t->order + 1),
                          taylor_of(t->over, i, t->order + 1)[0]);

@@ -44,9 +44,9 @@ typedef struct flowpipe flowpipe;
 flowpipe *flowpipe_new(const exact_motion *m, int order);
 void flowpipe_free(flowpipe *t);
 
-/* Opens a step of at most `most_s`. Returns its length in s, or 0 if no useful step is possible. Until flowpipe_on(),
- * flowpipe_at() may be called: x[states] encloses the state at tau_s after the step's start, 0 <= tau_s <= length. */
+/* Opens a step of at most `most_s`. Returns the step's length in s, or 0 if no useful step is possible. */
 double flowpipe_open(flowpipe *t, double most_s);
+/* Sets x[states] to enclose the state at tau_s after the open step's start; 0 <= tau_s <= the step's length. */
 void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x);
 /* Ends the step at tau_s. Returns false if the tube ends there. */
 bool flowpipe_on(flowpipe *t, enclosure tau_s);

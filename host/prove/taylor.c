@@ -193,7 +193,7 @@ static void logarithm(const taylor *t, const node *n, int self, int k, enclosure
     dual_divide(to, u, width_of(t, k));
 }
 
-/* w' u = a w u': k u_0 w_k = sum of (a (k - j) - j) w_j u_(k-j) over j < k */
+/* w = u^a: k u_0 w_k = sum of (a (k - j) - j) w_j u_(k-j) over j < k */
 static void power(const taylor *t, const node *n, int self, int k, enclosure *to) {
     const enclosure *u = at(t, n->left, 0);
     if (k == 0) {

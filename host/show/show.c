@@ -406,7 +406,7 @@ static void show_below(const show *s, const piece *p, double bottom) {
     fputs(s->style == SHOW_LATEX ? "}" : many ? ")" : "", s->out);
 }
 
-/* Prints 2*m*r*sin(a)/3, without the sign. Prints the number 1 only if there is no other factor above the bar. */
+/* Prints a product such as 2*m*r*sin(a)/3, without the sign. */
 static void show_product(const show *s, const piece *p) {
     double top;
     double bottom;

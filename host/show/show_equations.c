@@ -212,7 +212,7 @@ static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
     FILE *out = alloc_text(&text, &length);
-    const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows after the first */
+    const int indent = factors ? QUAD + SIGN : QUAD;
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);

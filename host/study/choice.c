@@ -20,7 +20,6 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* Returns the bound to compare with a limit. `hopeful`: the row is predicted, and will be counted if it is chosen. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_request *w, const table *made, int i) {
@@ -112,7 +111,6 @@ static void expect(const trials *t, table *made, const table_row *last,
     }
 }
 
-/* Drops rows whose runs are too long to count. */
 static void drop_long(const trials *t, table *made) {
     int kept = 0;
     for (int i = 0; i < made->count; i++) {

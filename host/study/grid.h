@@ -35,7 +35,7 @@ typedef struct grid {
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
 
-/* The values of point `point` < g->points, by axis: value[g->count], SI. The ends are exact. */
+/* Sets value[g->count], SI, to the axes' values at `point` < g->points. An axis's first and last values are exact. */
 void grid_values(const grid *g, uint64_t point, double *value);
 
 int grid_step_axis(const grid *g);

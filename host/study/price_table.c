@@ -91,7 +91,7 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         row.cost = trial_cost(t, s, row.pace, &own);
         row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)));
         if (!own && setting_price_varies(s)) {
-            continue; /* a shorter step may be possible */
+            continue;
         }
         if (!own || (row.price.basis == COST_NOT_KNOWN && !contacts)) {
             c->end = own ? UNPRICED : NOT_OWN;
@@ -232,7 +232,6 @@ enum { FIGURE_TEXT = 64 };
 static const char letters[] = "-xpmesr";
 static_assert(sizeof letters == COST_BASES + 1, "one each");
 
-/* "1234 p", "-" if unknown. Returns text. */
 static const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]) {
     if (f->basis == COST_NOT_KNOWN) {
         snprintf(text, FIGURE_TEXT, "-");
@@ -255,7 +254,6 @@ const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]) {
     return text;
 }
 
-/* Explains the letters of the figures in `c`, one on each line. */
 static void figure_legend(FILE *out, const cost *c) {
     static const char *const says[COST_BASES] = {
 #define COST_BASIS_SAYS(id, word, says) says,

@@ -1,4 +1,4 @@
-/* price_table.h: error against price of all settings: the table that `whirl price` and `whirl choose` print. */
+/* price_table.h: the table of settings, with error and price, that `whirl price` and `whirl choose` print. */
 #ifndef STUDY_PRICE_TABLE_H
 #define STUDY_PRICE_TABLE_H
 
@@ -57,7 +57,7 @@ typedef struct table_request {
     double operations;  /* limit on the operations of all trials */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
     double error;       /* requested error; 0: no request */
-    double rate_Hz;     /* rate of calls; each makes a whole number of steps; 0: no request */
+    double rate_Hz;     /* a period of 1/rate_Hz s has a whole number of steps; 0: no request */
     uint64_t periods;   /* number of periods of 1/rate_Hz s between two records; 1 without a rate */
     int workers;
     bool shows; /* progress on standard error */
@@ -75,7 +75,7 @@ uint64_t table_substeps(const table_request *w, const table_row *row);
  * do not depend on the number of workers. Check t->stopped. */
 table *table_new(trials *t, const table_request *w);
 void table_free(table *made);
-/* Sorts the rows by price, and marks the front. */
+/* Sorts the rows by price, and sets `on_front` of each row. */
 void table_sort(table *made);
 
 /* The price of steps of this length. */

@@ -12,7 +12,7 @@
 
 /* === the deviation of a run =================================================================== */
 
-/* Enters the errors at a record. Returns false if they exceed what.give_up. */
+/* Updates *d with the errors at a record. Returns false if d->error exceeds what.give_up. */
 static bool enter(const reference *r, const records *now, int record, deviation_of_what what,
                   deviation *d) {
     const double *row = r->row + (size_t)record * (size_t)r->columns;
@@ -136,7 +136,6 @@ static double row_off(const reference *r, const computed *other, int record, int
     return isfinite(off) ? off : (double)INFINITY;
 }
 
-/* Sets a column's `largest` and `off` over the records up to `until`. Returns whether the column is known. */
 static bool measure(reference *r, const computed *other, int until, int column) {
     const double enough = KNOWN_BY * largest_of(r, r->row, until, column);
     reference_column *c = &r->column[column];

@@ -89,7 +89,7 @@ static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s)
     return code;
 }
 
-/* --- the rows that are there -------------------------------------------------------------------*/
+/* --- the rows of the file ----------------------------------------------------------------------*/
 
 /* Is `line` a valid row with number `row`? *failed: its measures are empty. */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,

@@ -12,8 +12,8 @@
 /* At most SUBSETS_EFFECTS_MAX effects are selected. If more than SUBSETS_ALL_MOST act, not all subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
-/* Costs in float; NAN: unknown. In this order: cycles of a step (instructions if the board's cycles are a range),
- * largest number of evaluations in a step, bytes of flash, bytes of RAM. */
+/* Costs with the number type float; NAN: unknown. SUBSET_STEP: cycles of a step, or instructions if board->cycles is
+ * COST_RANGE. SUBSET_WORST: most evaluations in a step. SUBSET_FLASH and SUBSET_RAM: bytes. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 
 /* The scene without the effects of the bits in `out`. */

@@ -108,7 +108,8 @@ typedef struct trial_result {
     double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
-/* Computes the references. Returns false if make() fails, or if `of` is no column or has noise (reported). */
+/* Computes a reference for each point. Returns false if w->source->make() returns NULL. Returns false with a message if
+ * w->of is no column or has noise. */
 bool trial_begin(trials *t, const trial_request *w);
 void trial_end(trials *t);
 
