@@ -21,7 +21,7 @@ static inline bool stop_was_pressed(bool watchdog_has_cut) {
 _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_INPUT == (int)WH_STOP_BY_INPUT &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
-               "one list of who asks for stop");
+               "the HAL and the station number the sources of a stop alike");
 
 /* Returns the source of the stop. It is known only as long as stop is pressed. */
 static inline wh_stop_by stop_was_by(void) {

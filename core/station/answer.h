@@ -49,7 +49,7 @@ const char *wh_list_item(const char *list, unsigned number);
     X(WH_STATION_SECONDS, 106, "give 0, or a number of seconds from 1 to 3600") \
     X(WH_STATION_BUSY, 107, "this works only while the rig is idle") \
     X(WH_STATION_CONF_HOW, 108, "conf has no such subcommand; help conf shows them") \
-    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list shows them, FROM = next") \
+    X(WH_STATION_CONF_NONE, 109, "no such setting; see conf list, then conf list NEXT") \
     X(WH_STATION_CONF_VALUE, 110, "not a value of this setting; conf get shows its type") \
     X(WH_STATION_CONF_RANGE, 111, "outside the setting's range; conf get shows it") \
     X(WH_STATION_CONF_AGAINST, 112, "conflicts with another speed, supply or motor setting") \
@@ -57,7 +57,7 @@ const char *wh_list_item(const char *list, unsigned number);
       "the settings memory failed; the settings saved before are kept") \
     X(WH_STATION_NOT_HERE, 114, "this program does not support it") \
     X(WH_STATION_TEL_HOW, 115, "tel has no such subcommand; help tel shows them") \
-    X(WH_STATION_TEL_RATE, 116, "give a divisor of the load cell's rate; at most 100 as text") \
+    X(WH_STATION_TEL_RATE, 116, "give a divisor of the cell's rate; in text formats at most 100") \
     X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list shows all") \
     X(WH_STATION_TEL_FORMAT, 118, "give frames, teleplot or arduino") \
     X(WH_STATION_TEL_RING, 119, "the ring has no records yet")

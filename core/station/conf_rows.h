@@ -76,7 +76,7 @@
     X(record_turns, 18, WH_CONF_REAL, ONE, 3.0, 100.0, ALONE, measure.record_turns, \
       "least duration of the record, in turns") \
     X(settle_time, 19, WH_CONF_REAL, SECOND, 0.1, 30.0, ALONE, run.settle_s, \
-      "time before the record with means of four turns within settle_band") \
+      "how long four-turn means are in settle_band before the record") \
     X(settle_band, 20, WH_CONF_REAL, RPM, 0.05, 20.0, ALONE, run.settle_band_radps, \
       "allowed deviation of the speed, up or down") \
     X(ramp, 21, WH_CONF_REAL, RPM_S, 5.0, 200.0, ALONE, run.drive.ramp_radps2, \
@@ -98,13 +98,13 @@
     X(supply_most, 29, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_max_V, \
       "a higher supply voltage trips") \
     X(armed_time, 30, WH_CONF_REAL, SECOND, 1.0, 600.0, ALONE, armed_max_s, \
-      "time after arm in which start is allowed") \
+      "longest time from arm to start") \
     X(rest_time, 31, WH_CONF_REAL, SECOND, 5.0, 600.0, ALONE, rest_max_s, \
       "longest time until the rotor is at rest") \
     X(stop_brakes, 32, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, stop_brakes, \
       "brake at a run's end and after stop; off: coast") \
     X(swings, 33, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, swings, \
-      "end a run in a free swing, which measures the sensors' angles") \
+      "end a run with a free swing that measures the sensors' angles") \
     X(host_loss_stops, 34, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, host_loss_stops, \
       "stop a run when the host is lost") \
     X(compensation, 35, WH_CONF_WHEN, ONE, 0.0, 2.0, ALONE, compensation_when, \

@@ -37,11 +37,11 @@
     X(fault, 0, "", "the latched trip, the values at that moment, and how the last run ended") \
     X(clear, 0, "", "release a trip whose cause is gone") \
     X(conf, 3, " list [FROM]|get NAME|set NAME VALUE|save|default", \
-      "settings; set, save, default only while idle") \
+      "settings; only while idle: set, save, default") \
     X(tel, 2, WH_TEL_FOLLOWS, "telemetry on the same line; off after a reset") \
     X(selftest, 0, "", "test at rest: arithmetic, cell, supply, stop input") \
     X(host, 1, " SECONDS", \
-      "a run ends after this time without a byte (setting host, until a reset)") \
+      "a run ends after this time without a byte; replaces setting host until a reset") \
     X(talk, 1, " on|off", "echo typed characters, report each new state")
 
 /* 0 omits telemetry, for small chips: station->tel stays NULL. */

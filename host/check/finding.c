@@ -6,7 +6,7 @@
 #include "host/check/horizon.h"
 #include "slow.h"
 
-_Static_assert(WH_EVENTS_MAX == 8, "messages here, in horizon.c and in choice.c say eight");
+_Static_assert(WH_EVENTS_MAX == 8, "messages in finding.c, horizon.c and choice.c say eight");
 
 const finding_row finding_rows[FINDINGS] = {
     [FINDING_MASS] =
@@ -15,7 +15,7 @@ const finding_row finding_rows[FINDINGS] = {
          "have a mass matrix that is nearly singular"},
     [FINDING_CONSTANTS] =
         {"constants", FINDING_WARNING, 0.0, "numbers",
-         "a value is not finite if the file's numbers are rounded differently",
+         "a value becomes infinite or undefined if the file's numbers are rounded differently",
          "have constants in which rounding loses a small number that is added to a large one"},
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
@@ -25,12 +25,12 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_ACCURACY] =
         {"accuracy", FINDING_WARNING, 0.5, "of the run",
          "an error that grows steadily to 2 % at the end passes 1 % at half of the run",
-         "have a coordinate or rate with an error above 1 % of its range in the first half of the run, or with a sudden error"},
+         "have a coordinate or rate with a sudden error, or with an error above 1 % of its range in the first half of the run"},
     [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion continues through a pole",
                       "jumped over a pole of an expression"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
-                        "a contact or a force between two evaluations has not acted",
-                        "passed, or may have passed, through a contact or over a force"},
+                        "the run ignores a contact or force that acts only between two evaluations",
+                        "passed, or may have passed, through a contact or over a brief force"},
     [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
                          "the tolerance of a trusted run, plus the error of the steps",
                          "alias a force or motion that is faster than the step"},
@@ -38,13 +38,13 @@ const finding_row finding_rows[FINDINGS] = {
                         "Whirl completes such a step with all loaded contacts at rest or sticking",
                         "had steps with more than eight moments with events"},
     [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of the held expression",
-                       "a start in decimal digits satisfies a hold better than this",
+                       "a start rounded to decimal digits violates a hold by less than this",
                        "have holds that the start violates"},
     [FINDING_DIGITS] =
         {"digits", FINDING_NOTE, SLOW_SHARE,
          "of the distance that the component "
          "should cover",
-         "the round-off of all steps together may reach this part of the distance",
+         "the round-off of all steps together may be this large",
          "have a coordinate or rate that changes in a step by less than its resolution"},
 };
 

@@ -132,7 +132,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
     fprintf(
         out,
         "the step aliases a fast force or motion: a run with steps of %.4g s, which do not alias "
-        "it, gives %s = %.6g%s%s at t = %.6g s, not %.6g",
+        "it, gives %s = %.6g%s%s at t = %.6g s; this run gives %.6g",
         a->step_s, records_shown_name(column, name), a->other, plain ? "" : " ", plain ? "" : unit,
         a->at_s, a->value);
 }
@@ -581,7 +581,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
         statement_text(im->contact[k].at, statement, sizeof statement);
         fprintf(
             out,
-            "hint: '%s' exerts a force on every coordinate in it: if one of them only measures time, give it far more inertia, or write it as an input with a rate\n",
+            "hint: '%s' exerts a force on every coordinate in this statement: if one of these coordinates only measures time, give it far more inertia, or declare it as an input with a rate\n",
             statement);
     }
     fputs("hint: try a smaller --step; if the run still fails at this time, check whether the mass "

@@ -252,10 +252,11 @@ static void say_unknown(FILE *out, const horizon *h, int k) {
         fprintf(out, "unknown after t = %.6g s: sine is computed only up to %g rad in double",
                 h->of->cut_s, ANGLE_SINE_MOST_RAD);
     } else if (c->range > 0.0) {
-        fprintf(out, "unknown: even in double, round-off may move it by %.2g of its range",
+        fprintf(out, "unknown: even in double, round-off may change the value by %.2g of its range",
                 c->rounding / c->range);
     } else {
-        fputs("unknown: even in double, round-off may be the reason that it does not move", out);
+        fputs("unknown: even in double, round-off may be the reason that the value does not change",
+              out);
     }
 }
 
@@ -323,9 +324,9 @@ static const char *cut_by(const step_doubling *t) {
         return "after that a step of this run or of the finer run had more than eight moments with events";
     }
     return t->missed
-               ? "after that a step of this run or of the finer run passed through a contact or "
-                 "over an edge or a force"
-               : "after that a step, of this run or of the finer one, jumped over a pole of an expression";
+               ? "after that a step of this run or of the finer run passed through a contact, or "
+                 "over an edge or a brief force"
+               : "after that a step of this run or of the finer run jumped over a pole of an expression";
 }
 
 /* Prints the time until which the run is accurate, and why not longer. If `end`, also prints the end of the run. */

@@ -187,7 +187,7 @@ static void report(const nonfinite_at *at, place where, place part, const char *
 
 /* A hint for node i, the innermost one that is not finite. */
 static const char *hint_of(const diagnosis *v, int i, const nonfinite_at *at) {
-    static char hint[200];
+    static char hint[240];
     const diagnostics_node *n = &v->image->diagnostics.node[i];
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
     snprintf(
@@ -195,7 +195,7 @@ static const char *hint_of(const diagnosis *v, int i, const nonfinite_at *at) {
         "the value is %s() of %.6g rad, but sine and cosine are computed only up to %g rad: start "
         "the angle within a turn%s",
         function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at),
-        at->turns ? "" : ", or --number float, whose angles count turns");
+        at->turns ? "" : ", or use --number float, which stores an angle as a fraction of a turn");
     return sine ? hint : hint_domain;
 }
 

@@ -45,9 +45,10 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
         fputs("turns so slowly that rounding its change in each step to 1.5e-9 rad, as float does,",
               out);
     } else {
-        fprintf(out,
-                "moves so slowly that rounding its value to %.2g%s%s and its change in each step",
-                kind->unit(run, i), space, unit);
+        fprintf(
+            out,
+            "moves so slowly that rounding both its value to %.2g%s%s and its change in each step",
+            kind->unit(run, i), space, unit);
     }
     fprintf(out, " causes an error of up to %.2g%s%s", off, space, unit);
     if (span > 0.0) {
@@ -77,7 +78,7 @@ void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *r
     if (some) {
         fputs(
             kind->unit != NULL
-                ? "hint: use a larger --step or narrower ranges (not for turn angles), which reduce round-off; or use --number float --compensated\n"
+                ? "hint: use a larger --step, or --number float --compensated; narrower ranges help too, except for turn angles\n"
                 : "hint: use --compensated or a larger --step: both reduce round-off\n",
             out);
     }

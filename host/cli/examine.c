@@ -135,7 +135,7 @@ static void print_uncommon(const show *s, const equations *e, const symmetry *of
     if (moved[1] != NULL) {
         fprintf(
             s->out,
-            "%s%s and %s change by different amounts in this symmetry: if both are absolute and point in the same direction, this is not the total momentum\n",
+            "%s%s and %s change by different amounts in this symmetry: if both are absolute and point in the same direction, its momentum is not the total momentum\n",
             prefix, moved[0]->name, moved[1]->name);
     }
 }

@@ -228,7 +228,7 @@ static int listen(port *line, const firstlight_options *o, const char *from_name
     const double began_s = system_now_s();
     double asked_s = began_s - ASK_S;
     const char *hint =
-        "check that this line is the board's console, that --baud is its speed, and that the program firstlight runs";
+        "check that this line is the board's console, that --baud is its speed, and that the board runs the program firstlight";
     const char *why = "no record came; --wait S waits longer";
     int code = EXIT_RUN_FAILED;
     bool ended = false;

@@ -369,7 +369,9 @@ static int run(void *options) {
     }
     one = (monitor){.o = o, .typing = true};
     if (!open_line(m)) {
-        port_say_unopened(m->o->port, "`make rig` makes the line build/rig.tty");
+        port_say_unopened(
+            m->o->port,
+            "for the simulated rig, run `make rig`, which creates the line build/rig.tty");
         return EXIT_BAD_INPUT;
     }
     m->live = m->line.is_line;
