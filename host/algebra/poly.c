@@ -498,7 +498,7 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* === sums, products and powers ================================================================ */
 
-/* The product of two sums is multiplied out if this takes at most this many products of terms. */
+/* The product of two sums is multiplied out if it has at most this many products of terms. */
 #define PRODUCT_TERMS_MAX 400000
 /* A power of a sum of positions is not expanded if its exponent is whole and at least this: the expanded (x - b)^3
  * would lose its digits near x = b. Squares are expanded, so that equal sums of squares have the same form. */

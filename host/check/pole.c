@@ -375,7 +375,7 @@ static bool leaps(const image *im, const diagnostics_node *n) {
     return set;
 }
 
-/* Is the node a nonlinear function of those of its operands that depend on the state? */
+/* Is the node nonlinear in an operand that depends on the state? */
 static bool bends(const denominators *d, const diagnostics_node *n, const int *of, int count) {
     const bool first = count > 0 && (d->is[of[0]] & MOVES) != 0;
     const bool second = count > 1 && (d->is[of[1]] & MOVES) != 0;

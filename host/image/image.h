@@ -317,8 +317,8 @@ typedef struct image {
 
 void image_free(image *im); /* `im` may be NULL */
 
-/* Writes the settings of the finer run (host/check/step_doubling.h): those of `of`, but without tables. If `of` has
- * MATRIX_EXACT, sums are compensated. Returns false if *finer equals *of. */
+/* Writes the settings of the finer run (host/check/step_doubling.h): a copy of *of without tables. If of->matrix is
+ * MATRIX_EXACT, the finer run compensates its sums. Returns false if *finer equals *of. */
 bool image_settings_finer(const image_settings *of, image_settings *finer);
 
 component image_component(const image *im, int i); /* angles come first */

@@ -1,5 +1,5 @@
-/* taylor.h: enclosed Taylor coefficients x_k of all motions through a box of states, x(t + h) = sum of x_k h^k, by
- * recurrences (Moore; Rall and Corliss, An introduction to automatic differentiation, 1996). */
+/* taylor.h: intervals that contain the Taylor coefficients of every motion through a box of states. They are computed
+ * by recurrences (Moore; Rall and Corliss, An introduction to automatic differentiation, 1996). */
 #ifndef PROVE_TAYLOR_H
 #define PROVE_TAYLOR_H
 

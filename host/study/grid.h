@@ -52,9 +52,9 @@ void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);
 void changes_forget(const overrides *base, overrides *changes);
 
-/* False, reported on standard error, if an axis varies a value of an effect that is not selected in `base`. */
+/* Returns false (reported) if an axis varies a value of an effect that `base` does not select. */
 bool changes_take_part(const grid *g, const instance *base);
-/* False, reported on standard error, if `base` sets a value that an axis varies. */
+/* Returns false (reported) if `base` sets a value that an axis varies. */
 bool changes_are_apart(const grid *g, const overrides *base);
 
 #endif

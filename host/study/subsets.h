@@ -42,10 +42,12 @@ typedef struct subsets {
     int count;
 } subsets;
 
-/* Makes the image of the full scene. False, reported: no image, or too many effects. Always call subsets_close(). */
+/* Makes the image of the full scene. Returns false without an image, or with too many effects (reported). Call
+ * subsets_close() in any case. */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
-/* Runs the full scene, and for each effect the scene without that effect. False, reported: the full run diverges. */
+/* Runs the full scene, and for each effect the scene without that effect. Returns false if
+ * the full run diverges (reported). */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
 /* Runs the subsets of the acting effects. If more than SUBSETS_ALL_MOST effects act, runs only some subsets, and sets

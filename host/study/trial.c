@@ -203,7 +203,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 /* === trials =================================================================================== */
 
 #define REFERENCE_OPERATIONS 6e8 /* limit on the operations of the finest runs of all references */
-#define SURELY 10.0 /* errors below SURELY times the reference's error are given as bounds */
+#define SURELY 10.0 /* smaller errors, relative to the reference's error, are upper bounds */
 #define USABLE 1.0  /* largest usable error, relative to the quantity's largest value */
 
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
