@@ -29,7 +29,7 @@
 #define WH_LEDGER 0
 #endif
 
-/* Maximum number of contacts, and of values that crossings assign. A generated scene defines its own values. */
+/* Maximum numbers of contacts and of assignments by crossings. A generated scene defines its own maximum numbers. */
 #ifndef WH_CONTACTS_MAX
 #define WH_CONTACTS_MAX WH_CONTACTS_LIMIT
 #endif

@@ -100,7 +100,7 @@ static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_co
     return bits;
 }
 
-/* Returns, as bits, the closing free stops whose gap is nearly zero. One impact hits all these stops. */
+/* Returns, as bits, the free stops whose gap shrinks and is nearly zero. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
                                        wh_real h, const wh_real *signal, wh_contact_state *s) {
     const wh_real *rate = wh_contact_rates(of, s);

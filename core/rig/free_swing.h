@@ -95,7 +95,7 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 #define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
 #define WH_SWING_LAST 10U   /* number of stored pulse times of sensor 1 */
 
-/* Pieces of work. WH_SWING_GOES integrates a pass in many control steps; each other piece takes one. */
+/* Pieces of work. WH_SWING_GOES takes many control steps. Any other piece takes one control step. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
     WH_SWING_FACTORS,

@@ -204,8 +204,8 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
 /* The rig on a carriage that moves freely along a level rail, with arms in a level plane.
  *
  * M is the carriage's mass, m the eccentric mass, and S the unbalance. The load cell is between the shaft's pin and the
- * carriage. The cell measures the force of a fixed mount, times M/(M + m). The carriage moves to and fro with the
- * amplitude S/(M + m) at any speed. Source: Almesallmy (2006), I.3.2.2 and I.3.5. */
+ * carriage. On a fixed mount, the cell would measure a force F0. On the carriage, the cell measures F0 M/(M + m). The
+ * carriage moves to and fro with the amplitude S/(M + m) at any speed. Source: Almesallmy (2006), I.3.2.2 and I.3.5. */
 
 typedef struct wh_carriage {
     wh_real disc_m; /* distance of the discs' centres from the shaft */

@@ -28,7 +28,7 @@ WH_C_BEGIN
 /* no-load speed at HAL_VIRTUAL_RATED_V: parameter no_load of the model */
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
-/* The timer wraps this early, so that every run crosses the wrap. */
+/* Time from a start or reset to the timer's first wrap. The time is short, so that tests reach the wrap. */
 #define HAL_VIRTUAL_WRAP_AFTER_S 5U
 
 /* Injected faults, which may be set at any time. hal_virtual_rig_start() clears them. */

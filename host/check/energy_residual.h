@@ -36,7 +36,7 @@ typedef struct energy_residual {
 } energy_residual;
 
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run);
-/* Is the residual above its round-off, and the ratio above the limit? False if the residual is unknown. */
+/* Returns whether |left_J| > rounding_J and ratio > limit. Returns false if the residual is unknown. */
 bool energy_residual_lost(const energy_residual *b, double limit);
 /* Prints the line of a run's summary about the residual. Prints nothing if the residual is unknown. */
 void energy_residual_print(FILE *out, const energy_residual *b);

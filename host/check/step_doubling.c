@@ -15,8 +15,7 @@
 /* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
  * variants whose constants are folded with other roundings (host/number/folding.h). Most scenes need no variants. */
 
-/* Adds the errors off[ways * count] of each variant to share[ways]. Components have different units, so each error is
- * divided by the largest error of the same component. */
+/* off[k * count + i]: error of variant k in component i. share[k] sums relative errors: components' units differ. */
 static void add_shares(const double *off, int ways, int count, double *share) {
     for (int i = 0; i < count; i++) {
         double most = 0.0;

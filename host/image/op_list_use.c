@@ -222,7 +222,6 @@ typedef struct schedule {
     bool *done; /* [ops] */
 } schedule;
 
-/* Takes one user from value v. If one user remains, the ends[] of this user grows by 1. */
 static void use_up(schedule *s, int v) {
     const op_list_needs *n = s->needs;
     if (--s->uses[v] != 1) {

@@ -129,7 +129,7 @@ typedef struct table_functions {
     const int *function; /* [tables] index of each table's function in the list */
 } table_functions;
 
-/* Returns of[at] minus the average error of the pieces near knot `at`. of[] repeats after `cells`, a power of two. */
+/* `cells` must be a power of two. */
 static double corrected(const double *of, int cells, int at, int terms) {
     const int last = cells - 1;
     const double here = of[at & last];

@@ -133,7 +133,7 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* Finds the shortest decimal within a relative error of 2^-52. *said: 10^(number of digits). */
+/* Finds the shortest decimal within a relative error of 2^-52. *said: 10^n for a decimal of n digits. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {

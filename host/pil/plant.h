@@ -25,7 +25,7 @@ typedef struct bound {
 
 typedef struct binding {
     unsigned count;
-    bound bound[WH_SIGNALS_MAX]; /* in the order of the hello, without notes */
+    bound bound[WH_SIGNALS_MAX]; /* in the order of the hello's signals */
 } binding;
 
 unsigned hello_channels(const wh_hello *hello, wh_signal_kind kind); /* the number of signals */

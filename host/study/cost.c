@@ -19,7 +19,7 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* The two numbers after COST_RANGE are assumed limits of the cycles per instruction. Cortex-M4: 1.2 to 1.7 (Arm). */
+/* The two numbers after COST_RANGE are assumed limits of the cycles per instruction. */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
