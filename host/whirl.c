@@ -41,7 +41,7 @@ static const command commands[] = {
     {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "the time until which a run can be trusted"},
     {"prove", command_prove, "SCENE|FILE[:SCENE] ...",
      "the time until which a run is proved to be accurate"},
-    {"map", command_map, "SCENE|FILE[:SCENE] ...", "pairs of values for which a run is right"},
+    {"map", command_map, "SCENE|FILE[:SCENE] ...", "pairs of values for which a run is accurate"},
     {"pil", command_pil, "SCENE --firmware IMAGE",
      "firmware in an emulator, with a scene as its plant"},
     {"monitor", command_monitor, "PORT", "a rig's console, and a recording of its telemetry"},

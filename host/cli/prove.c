@@ -43,7 +43,7 @@ static const command_usage usage = {
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
         "                       prints the proof so far.\n"
         "  --quiet              no progress; with --csv no report\n",
-    .why = {"the run did not fail; its end may be unproved",
+    .why = {"the run did not fail, but the proof may end before it",
             "the run diverged; Whirl printed the proof so far", "", "the proof so far is printed"}};
 
 typedef struct prove_options {

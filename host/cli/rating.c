@@ -204,7 +204,7 @@ static void say_no_pace(const trials *t, const setting *s, double least, bool ro
     } else if (slow != NULL) {
         snprintf(
             why, sizeof why,
-            "; steps of %s s or less need %.1e operations or more, and the limit of all tries together "
+            "; with steps of %s s or less, all tries together need %.1e operations or more, and the limit "
             "is %.1e",
             trial_step_text(t, *slow, text), operations, TRIES_OPERATIONS);
     }

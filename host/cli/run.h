@@ -12,7 +12,7 @@
     "  --x NAME             the horizontal axis (default: the time)\n" \
     "  --title TEXT         the title\n" \
     "  --xlabel TEXT        the label of the horizontal axis\n" \
-    "  --ylabel TEXTS       the labels of the panels, between commas\n"
+    "  --ylabel TEXTS       the labels of the panels, separated by commas\n"
 /* Rows of own_option for these options. They set a plot_choice. */
 #define RUN_CHOICE_ROWS(choice) \
     {.word = "--y", .text = &(choice).y}, \

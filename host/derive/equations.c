@@ -233,7 +233,7 @@ void equations_report_growth(const equations *e, diags *errors) {
     if (m->parameter_count > 0) {
         snprintf(
             hint, sizeof hint,
-            "write let instead of parameter, so that %d parameters become numbers; or use smaller powers of sums, or coordinates relative to the joints",
+            "write 'let' instead of 'parameter', so that %d parameters become numbers; otherwise use smaller powers of sums, or coordinates relative to the joints",
             m->parameter_count);
     }
     diag_error(errors, m->at, hint, "the equations of '%s' grow too large: %s", m->name, limit);

@@ -186,7 +186,7 @@ static void report_singular_system(const equations *e, diags *errors) {
         "the equations of '%s' cannot be solved for the highest derivatives: this equation %s",
         e->instance->mechanism->name,
         empty ? "contains none"
-              : "has the same combination of highest derivatives as the equations above it");
+              : "has the same highest derivatives as a sum of multiples of the equations above it");
 }
 
 /* Returns an inactive effect whose T contains the rate of `s`, or NULL. */
@@ -346,7 +346,7 @@ static bool equations_check_solvable(equations *e, diags *errors) {
         diag_error(
             errors, taken != NULL ? taken->at : place_of(e->instance, TERM_T, 0),
             "look for a negative mass or a product of two rates, such as x'*y'; or write the equations themselves, with 'state' and 'equation' statements",
-            "the kinetic energy of '%s' is negative for some motion at every state tried",
+            "the kinetic energy of '%s' is negative for some rates in every state that Whirl tried",
             of->name);
         break;
     case SOLVABLE: break;
@@ -481,9 +481,10 @@ static bool derive_system(equations *e, diags *errors) {
             e->unknowns[s].order = order > e->unknowns[s].order ? order : e->unknowns[s].order;
         }
         if (e->unknowns[s].order == 0) {
-            diag_error(
-                errors, e->unknowns[s].symbol->at, "write an equation that contains its rate",
-                "no equation contains a derivative of state '%s'", e->unknowns[s].symbol->name);
+            diag_error(errors, e->unknowns[s].symbol->at,
+                       "write an equation that contains the rate of this state",
+                       "no equation contains a derivative of state '%s'",
+                       e->unknowns[s].symbol->name);
             good = false;
         }
     }

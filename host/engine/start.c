@@ -156,8 +156,10 @@ bool start_has_method(const image *im, wh_method method, diags *errors) {
             return false;
         }
     }
-    snprintf(hint, sizeof hint,
-             "compute its acceleration with --without conserve, or choose --method %s", others);
+    snprintf(
+        hint, sizeof hint,
+        "use --without conserve, so that Whirl computes the acceleration of this coordinate, or choose --method %s",
+        others);
     diag_error(errors, im->at, hint,
                "%s is not defined here: the rate of '%s' follows from its conserved momentum",
                title, im->unknown[im->from_momentum[0]].name);

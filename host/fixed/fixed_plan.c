@@ -20,7 +20,7 @@ static bool fixed_has_step(const image *im, diags *errors) {
                    "outputs of '%s' have noise, which fixed point does not support", im->name);
     } else if (im->contacts > 0) {
         diag_error(errors, im->contact[0].at, refused_part,
-                   "fixed point has no events, but '%s' has this %s", im->name,
+                   "fixed point does not support events, but '%s' has this %s", im->name,
                    im->contact[0].word);
     } else if (im->drives > 0) {
         diag_error(errors, im->input[im->drive[0].input].at,

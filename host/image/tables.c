@@ -401,7 +401,8 @@ static product_sum function_of(collecting *c, const op *o) {
         refuse(
             c->why,
             "contain a function (a root, abs, sign, ...) of a rate, an input, or a coordinate other than a turn angle",
-            "leave out --tables: with tables, only products of these quantities are possible", -1);
+            "leave out --tables: with tables, such quantities may occur only in sums and products",
+            -1);
         return (product_sum){NULL, 0};
     }
     if (o->code == OP_ABS || o->code == OP_SIGN || o->code == OP_MIN || o->code == OP_MAX) {
@@ -422,7 +423,7 @@ static product_sum wave_of(collecting *c, const op *o) {
     if (phase->b >= 0 || phase->parts != NULL) {
         refuse(
             c->why, "contain a sine or cosine of a quantity other than a turn angle",
-            "leave out --tables: an angle that also stands outside a sine or cosine is stored in radians, so it is no turn angle",
+            "leave out --tables: an angle that also occurs outside sines and cosines is stored in radians, not as a turn angle",
             -1);
         return (product_sum){NULL, 0};
     }

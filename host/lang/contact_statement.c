@@ -107,7 +107,7 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
         if (coordinate->is_angle) {
             const char *rule = arena_words(
                 in->arena,
-                "'%s' is an angle: its normal force times the radius must be a torque [kg*m^2/s^2]",
+                "'%s' is an angle, so its friction needs the normal force times a radius, a torque [kg*m^2/s^2]",
                 coordinate->name);
             check_dimension(in, at, value, wanted, rule);
         } else {

@@ -323,7 +323,8 @@ static void check_contact(parser *in, const mechanism *made, const contact_state
     if (rate != NULL) {
         diag_error(in->diags, each->value->at,
                    "write the position that is to be limited or held, not its rate",
-                   "stop and hold limit coordinates, not rates: '%s' is a rate", rate->name);
+                   "'stop' and 'hold' act on coordinates, not on rates: '%s' is a rate",
+                   rate->name);
         return;
     }
     const symbol *input =

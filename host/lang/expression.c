@@ -154,7 +154,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
         if (order > 0) {
             diag_error(in->diags, name->at,
                        "write the position that is to be limited or held, not its rate",
-                       "stop and hold limit coordinates, not rates: %s %s a rate", words,
+                       "'stop' and 'hold' act on coordinates, not on rates: %s %s a rate", words,
                        by_let ? "has" : "is");
             return false;
         }
@@ -266,7 +266,7 @@ static const expr *expr_name(parser *in, const token *name) {
     made->dim = made->symbol->dim;
     if (plain.primes > 0 && !made->dim.unknown &&
         !dim_derivative(made->dim, plain.primes, &made->dim)) {
-        diag_error(in->diags, name->at, NULL, "the exponents of this dimension are out of range");
+        diag_error(in->diags, name->at, NULL, "an exponent of this dimension is outside -99 to 99");
         made->dim.unknown = true;
     }
     return take_properties(in, made, &plain);

@@ -357,11 +357,12 @@ static void evaluate_durations(plan *from, instance *made) {
     const place at = until != NULL ? until->at : step != NULL ? step->at : made->mechanism->at;
     made->step = ratio_of(made->step_s);
     if (!ratio_count(ratio_of(made->until_s), made->step, &made->steps)) {
-        diag_error(values->diags, at, "use a larger step or an earlier until",
+        diag_error(values->diags, at, "use a larger 'step' or an earlier 'until'",
                    "more than 2^63 steps of %.9g s", made->step_s);
     }
     if (made->until_s > 0.0 && made->until_s < made->step_s * (1.0 - ROUNDING)) {
-        diag_error(values->diags, at, "use a later until or a shorter step; until 0 takes no step",
+        diag_error(values->diags, at,
+                   "use a later 'until' or a shorter 'step'; a run with 'until' 0 has no steps",
                    "'until' is %.9g s, less than one step of %.9g s", made->until_s, made->step_s);
     }
 }

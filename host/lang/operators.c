@@ -130,7 +130,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
                                  : arena_words(in->arena, "%.15g", number);
     const char *hint = arena_words(
         in->arena,
-        "write %s [%s], or in SI: %s [rad]; in formulas '%s' is in rad, so leave out a factor such as 57.3",
+        "write %s [%s], or in SI: %s [rad]; formulas take '%s' in radians, without a factor such as 57.3",
         text, angle->unit, text, angle->name);
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
@@ -215,7 +215,7 @@ static dimension common_dimension(parser *in, place at, const expr *left, const 
 }
 
 static bool range_error(parser *in, place at) {
-    diag_error(in->diags, at, NULL, "the exponents of this dimension are out of range (99)");
+    diag_error(in->diags, at, NULL, "an exponent of this dimension is outside -99 to 99");
     return false;
 }
 

@@ -287,7 +287,7 @@ static bool parse_scene_statement(parser *in) {
     }
     if (!uses && in->builder == NULL) {
         into->has_content = true;
-        diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
+        diag_error(in->diags, into->made->at, "name the scene's mechanism: use NAME",
                    "scene '%s' belongs to no mechanism", into->made->name);
         return false;
     }
@@ -371,7 +371,7 @@ void read_noted_scene(parser *in, const pending_scene *pending) {
         arena_push(in->arena, in->scenes, &in->scene_count, &into->made, sizeof into->made);
     const bool good = parse_body(in);
     if (good && in->builder == NULL) {
-        diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
+        diag_error(in->diags, into->made->at, "name the scene's mechanism: use NAME",
                    "scene '%s' belongs to no mechanism", into->made->name);
     } else if (good) {
         scene_check_sets(in, into->made);

@@ -191,7 +191,8 @@ static void finish_system(parser *in, builder *done) {
     for (int i = 0; i < made->coordinate_count; i++) {
         const symbol *state = made->coordinates[i];
         if (state->order == 0) {
-            diag_error(in->diags, state->at, "write an equation that contains it with a prime",
+            diag_error(in->diags, state->at,
+                       "write an equation that contains this state with a prime, such as x'",
                        "no equation has a derivative of '%s'", state->name);
             return;
         }

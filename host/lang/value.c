@@ -128,7 +128,8 @@ double parameter_value(valuation *known, int index) {
     }
     known->parameter[index] = 0.0;
     if (known->parameter_state[index] == 1) {
-        diag_error(known->diags, at, "give one of these values as a number",
+        diag_error(known->diags, at,
+                   "set one of the parameters that depend on each other to a number",
                    "'%s' is set to a value that depends on itself", name);
         return 0.0;
     }

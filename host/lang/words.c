@@ -29,7 +29,7 @@ COLUMN(contact_undefined, contact_kind, CONTACT_KIND_ROWS, CONTACT_UNDEFINED)
 #define CHOICE "write max(a, b), min(a, b) or sign(x); for a change at a moment, write when or hold"
 #define JUMP "for a step function write (1 + sign(x))/2; for a contact use stop, hold or when"
 #define COUNT \
-    "the language has no rounding; to return to a value, set it at an event: when x crosses 1 [m] rising { set x = 0 [m] }"
+    "the language has no rounding; to set a coordinate back, use an event: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define PARAMETER "write: parameter m = 2 [kg]"
 #define RATE "write a derivative in time as a prime: x', x''"
 #define NOISE "add noise to an output: noise y deviation 0.01 [m] seed 7"
@@ -61,8 +61,8 @@ const char *first_word_hint(const char *text, size_t length) {
         {"t", CLOCK},
         {"time", CLOCK},
         {"given",
-         "write a given motion as the force that it causes: Q(x) = k*xe "
-         "(docs/language.md, \"What is given over time\"); or with a condition: hold x while x > 0 [m]"},
+         "for a given motion, write the force that it causes: Q(x) = k*xe "
+         "(docs/language.md, \"What is given over time\"); to hold a coordinate under a condition, write: hold x while x > 0 [m]"},
         {"every",
          "for events at intervals use a coordinate as a clock: when phi crosses 2*pi rising "
          "{ set phi = 0 [rad] }"},

@@ -479,14 +479,14 @@ bool fault_all_occurred(const fault_plan *plan) {
             fprintf(stderr,
                     "whirl pil: error: the fault '%s' did not occur: ", fault_rows[f->kind].word);
             if (f->reached) {
-                fputs("the run ended before its time\n"
+                fputs("the run ended before the fault's time\n"
                       "hint: use an earlier time, or a longer --until\n",
                       stderr);
             } else {
                 fprintf(stderr,
                         "the note '%s' never had the value %g\n"
-                        "hint: read the notes in the run's report, or all their values on its "
-                        "tape (--tape FILE)\n",
+                        "hint: read the notes in the run's report, or all values of the notes on "
+                        "a tape (--tape FILE)\n",
                         f->note, f->value);
             }
             all = false;

@@ -72,7 +72,7 @@ typedef enum fault_place {
     X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 1, 0.01, 1, "", \
       "the drive stage ignores the duty, applies this share of the supply, and obeys its enable line") \
     X(FAULT_STUCK, "stuck", FAULT_INPUT, 1, 0.01, 1, "", \
-      "as runaway, but the drive stage also ignores its enable line") \
+      "like 'runaway', but the drive stage also ignores its enable line") \
     X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", \
       "the motor's torque is multiplied by this factor") \
     X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", \
@@ -86,11 +86,11 @@ typedef enum fault_place {
     X(FAULT_RESET, "reset", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
       "the controller is reset, and starts again after this time") \
     X(FAULT_WATCHDOG_RESETS, "watchdog-resets", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
-      "without kicks, the watchdog resets the controller, which starts again after this time")
+      "without kicks, the watchdog resets the controller, and the controller starts again after this time")
 #define FAULT_ORDER_ROWS(X) \
     X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", "computing is slower by this factor") \
-    X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer is late by this time") \
-    X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer is late by this time") \
+    X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer comes later by this time") \
+    X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer comes later by this time") \
     X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", \
       "the firmware's kicks do not reach " \
       "the watchdog") \

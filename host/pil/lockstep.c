@@ -301,7 +301,9 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
         return false;
     }
     if (!talk_is_same_hello(&hello, &t->hello)) {
-        return fail(t, "a hello after the reset that differs from its first hello");
+        return fail(
+            t,
+            "a hello after the reset that differs from its hello at the start in name, ticks or signals");
     }
     return say(t, &frame);
 }

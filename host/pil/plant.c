@@ -100,8 +100,8 @@ static bool has_good_range(const bound *b) {
         fprintf(
             stderr,
             "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per "
-            "count, every %u ticks\nhint: declare low <= high; a sample also needs a period and a "
-            "value per count above zero, and a range of 32-bit counts\n",
+            "count, every %u ticks\nhint: declare low <= high; for a sample, also declare a period "
+            "above zero, a value per count above zero, and a range that fits into 32-bit counts\n",
             s->name, (double)s->low, (double)s->high, (double)s->per_count,
             (unsigned)s->period_ticks);
     }

@@ -373,8 +373,8 @@ void lockstep_replay(const lockstep_request *request, const char *file, lockstep
         const bool started = talk_start(t, request, report, NULL);
         if (started && !talk_is_same_hello(&from->hello, &t->hello)) {
             fprintf(stderr,
-                    "%s: error: the signals of the firmware '%s' on this tape differ from those of "
-                    "the firmware '%s' now\n",
+                    "%s: error: the firmware '%s' on this tape differs from the running firmware "
+                    "'%s' in name, ticks or signals\n",
                     file, from->hello.program, t->hello.program);
             report->end = LOCKSTEP_BAD;
         } else if (started) {

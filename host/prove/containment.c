@@ -305,7 +305,7 @@ static void print_state(FILE *out, const containment_found *h, const containment
     if (!s->begun) {
         fprintf(out, "%-12s within %s %s: %s\n", "never", within, shown,
                 s->verdict == CONTAINMENT_LEFT ? "proved: the error is too large at the start"
-                                               : "the uncertainty of the start value is larger");
+                                               : "the uncertainty of the start value exceeds this");
         return;
     }
     fprintf(out, "%-12s within %s %s: error at most %s, width of the tube %s%s\n",

@@ -393,7 +393,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     }
     cost c = {.why = "", .state_bytes = cost_known(state_bytes(im, number), COST_EXACT)};
     if (row_of(board, number, COST_OF_INSTRUCTIONS) == NULL) {
-        c.why = "there are no counts for this board with this number type";
+        c.why = "Whirl has no instruction counts for this board with this number type";
         return c;
     }
     const cost_counts counts = cost_count(im, board, number);

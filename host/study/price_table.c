@@ -429,8 +429,10 @@ static void print_rows(FILE *out, const trials *t, const table *made, bool all) 
 void table_print_left(FILE *out, const table *made) {
     fprintf(out, "%d settings", made->settings);
     if (made->broken_off > 0) {
-        fprintf(out, "; for %d settings, finer steps need more than their share of --effort %.3g",
-                made->broken_off, made->operations);
+        fprintf(
+            out,
+            "; for %d settings, finer steps need more than one setting's share of --effort %.3g",
+            made->broken_off, made->operations);
     }
     if (made->unpriced > 0) {
         fprintf(out, "; %d without a price: %s", made->unpriced, made->why);
@@ -514,7 +516,7 @@ void table_print(FILE *out, const trials *t, const table *made, bool all) {
         fputs("no setting follows the motion: every error is larger than the values themselves\n",
               out);
     } else {
-        fputs("no table: without a reliable reference no error is known\n", out);
+        fputs("no table: without a reliable reference the errors are unknown\n", out);
     }
 }
 
@@ -662,7 +664,7 @@ static bool is_host(const cost_board *board) { return strcmp(board->name, "host"
 
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]) {
     if (t != NULL && t->image[0]->contacts > 0 && is_host(board)) {
-        return "runs with contacts are counted only in emulators";
+        return "the instructions of a run with contacts are counted only in emulators";
     }
     if (access(COUNTS, R_OK) != 0) {
         return "whirl can count in an emulator only in the root of its source tree";

@@ -216,11 +216,11 @@ static double time_of(const reference_request *w, int record) {
 
 static void say(const reference_request *w, reference *r, uint64_t steps, int reached) {
     r->how = alloc_words(
-        "%s in double with compensated sums and steps of %.6g s; the second reference has twice that step; both compute sines and events like the run, but without --tables",
+        "%s in double with compensated sums and steps of %.6g s; a second reference with twice that step checks it; both compute sines and events like the run, but without --tables",
         wh_methods[w->by.steps > 0 ? w->by.method : METHOD].word, time_of(w, 1) / (double)steps);
     if (r->records < reached) {
         r->why = alloc_words(
-            "after %.9g s the two references differ by more than %.0e of the largest value of a coordinate or rate: the motion diverges or jumps, or their events come in different orders",
+            "after %.9g s the two references differ by more than %.0e of the largest value of a coordinate or rate: the motion diverges or jumps, or the references have their events in different orders",
             time_of(w, r->records), r->limit);
     } else if (reached < r->wanted) {
         r->why = alloc_words("the run fails after %.9g s", time_of(w, r->records));

@@ -524,7 +524,7 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
             name_point(s->sweep, point);
             fprintf(stderr, ": %s\n", reason);
         } else if (s->described == DESCRIBED_MAX) {
-            fprintf(stderr, "further failures are not listed: their measures are empty\n");
+            fprintf(stderr, "further failures are not listed; their measures stay empty\n");
         }
         s->described += s->described <= DESCRIBED_MAX ? 1 : 0;
     } else if (!count_notes(s, point, &notes)) {

@@ -115,7 +115,7 @@ static void tell_outputs(simulation *sim) {
         snprintf(rows, sizeof rows, " (and in %llu more records)",
                  (unsigned long long)sim->output_rows - 1);
     }
-    diag_error(sim->undefined, s->at, "define the output at every position of the run",
+    diag_error(sim->undefined, s->at, "write a formula that is finite in every state of the run",
                "at t = %.9g s%s the output '%s' is not a finite number: %s", sim->output_s, rows,
                s->name, text);
 }
@@ -233,7 +233,7 @@ static void say_clamped(const simulation *sim) {
         fprintf(stderr,
                 "whirl run: warning: the restitution was outside 0 .. 1 in %" PRIu64
                 " impact%s; the first value was %.6g, in the step after t = %.6g s. Whirl used %d "
-                "instead, in the statement: %s\nhint: limit the expression: restitution"
+                "instead. The statement is: %s\nhint: limit the expression: restitution"
                 " max(0, min(1, ...))\n",
                 c.count, c.count == 1 ? "" : "s", c.value, c.begin_s, c.value > 1.0 ? 1 : 0,
                 statement);
@@ -365,7 +365,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (s->chosen != NULL) {
         fprintf(out, "%s%s\n", s->chosen,
                 (sim->checks->warned & ~FINDING_OF_SCENE) != 0
-                    ? "; this step keeps --error, but see the warning"
+                    ? "; the error of this step is within --error, but see the warning"
                     : "");
     }
     summary_head(out, sim->image, s->kind, sim->run);

@@ -209,8 +209,8 @@ exits 2 'step must be above zero' run thomson_a --step -1ms
 exits 2 'until must be at most 1e\+18 s, and this is 1e\+300 s' run thomson_a --until 1e300
 exits 2 'a step must be from 1e-18 s to 1e\+18 s, and this is 1e-300 s' run thomson_a --step 1e-300
 exits 2 'more than 2\^63 steps of 1e-09 s' run thomson_a --step 1ns --until 1e11
-exits 2 'hint: use a larger step or an earlier until' run thomson_a --step 1ns --until 1e11
-exits 2 'hint: use a later until or a shorter step' run thomson_a --until 1s --step 3s
+exits 2 "hint: use a larger 'step' or an earlier 'until'" run thomson_a --step 1ns --until 1e11
+exits 2 "hint: use a later 'until' or a shorter 'step'" run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
 prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
 # the number of steps is the nearest integer; a tie gives the lower one

@@ -176,7 +176,7 @@ refuse() { # refuse WORDS TARGET OPTION...
     exits 2 "$words" derive "$@" --as c --number fixed
     grep -q '^hint: ' "$scratch/err" || verdict 1 "a hint: $words"
 }
-refuse "fixed point has no events" carriage_stop
+refuse "fixed point does not support events" carriage_stop
 cat >"$scratch/w/stopped.whirl" <<'END'
 mechanism stopped "a stop in an effect"
 coordinate x [m]
@@ -185,7 +185,7 @@ V = 9 [N/m]*x^2/2
 effect end { stop x >= -0.5 [m] restitution 0.5 }
 scene stopped_rings { with end; start x = 1 [m]; step 1 [ms]; until 1 [s]; range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }
 END
-refuse "fixed point has no events" "$scratch/w/stopped.whirl"
+refuse "fixed point does not support events" "$scratch/w/stopped.whirl"
 grep -q 'put this statement into an effect, and use --without EFFECT$' "$scratch/err" &&
     "$whirl" derive "$scratch/w/stopped.whirl" --without end --as c --number fixed >"$scratch/out" 2>"$scratch/err" && [ -s "$scratch/out" ]
 verdict $? "and as the hint says, it has a step in fixed point without the effect"

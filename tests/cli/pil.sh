@@ -196,7 +196,7 @@ exits 2 'the tape is damaged' --replay "$scratch/cut.tape" --firmware "$build/pi
 { head -c 3000 "$scratch/pc.tape" && printf X && tail -c +3002 "$scratch/pc.tape"; } >"$scratch/flip.tape"
 exits 2 'not a tape of this version' --replay "$build/pil_rig" --firmware "$build/pil_rig"
 exits 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
-exits 2 "of the firmware 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
+exits 2 "the firmware 'rig' on this tape" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
 # the beginning of one run with the end of another: frames end in zeros
 sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 --firmware "$build/pil_cart" --tape "$scratch/long.tape" >"$scratch/out" 2>"$scratch/err"
 { tr '\0\n' '\n\0' <"$scratch/cart.tape" | head -n 1001 && tr '\0\n' '\n\0' <"$scratch/long.tape" | tail -n +1002; } | tr '\0\n' '\n\0' >"$scratch/mixed.tape"

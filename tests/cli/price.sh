@@ -216,7 +216,7 @@ verdict $? "and its code"
 for effort in 4e5 8e5; do
     "$whirl" choose --predict "$scratch/pendulum.whirl" --effort $effort --error 1e-8 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
     [ $? -eq 1 ] && grep -q '^no setting fits among the tried steps: raise --effort$' "$scratch/out" &&
-        grep -q '; for [1-9][0-9]* settings, finer steps need more than their share of --effort' "$scratch/out"
+        grep -q '; for [1-9][0-9]* settings, finer steps need more than one setting.s share of --effort' "$scratch/out"
     verdict $? "settings that take more than --effort $effort are counted" "$scratch/out"
 done
 # Named methods replace the default ones, and the same effort gives the same table again.
@@ -235,7 +235,7 @@ verdict $? "which are measured" "$scratch/b.csv"
 
 # --- no reference ---------------------------------------------------------------------------------------------------
 "$whirl" price incline_sticks >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 1 ] && grep -q 'no table: without a reliable reference no error is known' "$scratch/out"
+[ $? -eq 1 ] && grep -q 'no table: without a reliable reference the errors are unknown' "$scratch/out"
 verdict $? "where nothing moves there is no front" "$scratch/out"
 chaos() {
     "$whirl" price thomson_b --effort 1e7 >"$scratch/out" 2>"$scratch/err"

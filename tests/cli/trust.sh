@@ -135,7 +135,7 @@ exits 2 "there is no file and no built-in scene" nothing
 exits 2 "takes only one scene" thomson_a thomson_b
 exits 2 "unknown option '--plot'" thomson_a --plot x.svg
 exits 2 "is not defined here" thomson_a --method leapfrog
-exits 2 "fixed point has no events" carriage_stop --number fixed
+exits 2 "fixed point does not support events" carriage_stop --number fixed
 
 # --- what docs/dev/stability.md prints -----------------------------------------------------------------------------------------
 mkdir "$scratch/board" "$scratch/board/build"

@@ -653,7 +653,7 @@ TEST(replay, not_replayed) {
             TEST_ASSERT_NOT_NULL_MESSAGE(
                 strstr(
                     told,
-                    "error: the signals of the firmware 'drawn' on this tape differ from those of the firmware 'another' now\n"),
+                    "error: the firmware 'drawn' on this tape differs from the running firmware 'another' in name, ticks or signals\n"),
                 told);
         } else if (c % 4 == 2) { /* a broken tape */
             talk_on_tape.length -= 3;

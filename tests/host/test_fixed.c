@@ -368,7 +368,7 @@ TEST(fixed_runs, refusals) {
         {"V = 1 [J]*cos(x/1 [m])", "", "the sine of a quantity other than a turn angle"},
         {"Q(x) = -1 [N]*(2 + x/1 [m])^2.5", "", "contain"},
         {"output o = x\nnoise o deviation 1 [mm] seed 7", "", "outputs of 's' have noise"},
-        {"stop x >= -1 [m] restitution 0.5", "", "fixed point has no events"},
+        {"stop x >= -1 [m] restitution 0.5", "", "fixed point does not support events"},
         {"friction x static 0.3 kinetic 0.2 normal 1 [N]", "", "has this friction"},
         {"V = 1 [J]*x^2/1 [m^2]", "with ledger", "keeps a ledger"},
         {"V = 1 [J*m]/(x + 3 [m])",

@@ -313,7 +313,7 @@ TEST(price_words, empty_tables_give_reasons) {
     p.trial.reference[0]->why = alloc_words("nobody knows");
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "\n              no reliable reference: nobody knows\n");
-    (void)behind(text, "\nno table: without a reliable reference no error is known\n");
+    (void)behind(text, "\nno table: without a reliable reference the errors are unknown\n");
     TEST_ASSERT_NULL(strstr(text, "both references agree"));
     free(text);
     priced_close(&p);

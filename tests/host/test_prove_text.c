@@ -125,7 +125,7 @@ static const char *said_state(const char *at, int i, const char *name) {
     if (!s->begun) {
         return said_exactly(at, s->verdict == CONTAINMENT_LEFT
                                     ? "proved: the error is too large at the start\n"
-                                    : "the uncertainty of the start value is larger\n");
+                                    : "the uncertainty of the start value exceeds this\n");
     }
     at = said_exactly(at, "error at most ");
     at = read_not_less(at, unit, s->off, 1);

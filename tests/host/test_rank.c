@@ -232,7 +232,7 @@ TEST(rank, the_equation_that_depends_is_shown) {
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(d.errors, wanted), d.errors);
         TEST_ASSERT_NOT_NULL_MESSAGE(
             strstr(d.errors, empty ? "this equation contains none"
-                                   : "the same combination of highest derivatives"),
+                                   : "the same highest derivatives as a sum of multiples"),
             text);
         derived_free(&d);
         shown++;
@@ -509,13 +509,13 @@ TEST(underivable, singular_mechanisms_are_refused) {
 
 TEST(underivable, kinetic_energy_must_be_positive) {
     expect_refused("mechanism m\ncoordinate x [m]\nT = -1 [kg]*x'^2/2\n",
-                   "t.whirl:3:1: error: the kinetic energy of 'm' is negative for some motion");
+                   "t.whirl:3:1: error: the kinetic energy of 'm' is negative for some rates");
     expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoordinate z [m]\n"
                    "T = 1 [kg]*(x'*y' + y'*z' + z'^2/2)\n",
-                   "t.whirl:5:1: error: the kinetic energy of 'm' is negative for some motion");
+                   "t.whirl:5:1: error: the kinetic energy of 'm' is negative for some rates");
     expect_refused("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
                    "T = 1 [kg*m^2]*(a'^2/2 + b'^2/2 + (2 + cos(a))*a'*b')\n",
-                   "t.whirl:4:1: error: the kinetic energy of 'm' is negative for some motion");
+                   "t.whirl:4:1: error: the kinetic energy of 'm' is negative for some rates");
     /* the same matrix is accepted if it is written as equations */
     derived system =
         derived_surely(derived_text("mechanism m\nstate x\nstate y\nstate z\n"
@@ -578,7 +578,7 @@ TEST(underivable, a_hint_about_parameters_helps) {
         char wanted[100];
         const unsigned sums = 11 + dice_one_of(&d, 3);
         snprintf(wanted, sizeof wanted,
-                 "hint: write let instead of parameter, so that %u parameters become numbers",
+                 "hint: write 'let' instead of 'parameter', so that %u parameters become numbers",
                  3 * sums);
         for (int lets = 0; lets < 2; lets++) {
             const dice drawn = d;

@@ -264,8 +264,8 @@ static bool check_chosen(dice *d, const rated *r) {
     TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
     const char *longer = strstr(chosen, " s would also stay within the error, but has warnings\n");
     const bool warned = strstr(what.err, "warning") != NULL;
-    TEST_ASSERT_TRUE_MESSAGE(warned <= (strstr(chosen, "this step keeps --error") != NULL),
-                             what.err);
+    TEST_ASSERT_TRUE_MESSAGE(
+        warned <= (strstr(chosen, "the error of this step is within --error") != NULL), what.err);
     TEST_ASSERT_FALSE_MESSAGE(warned && longer != NULL, what.err);
     said_number(chosen + strlen("chosen step"), &step_s);
     said_number(strstr(what.out, "until t = ") + strlen("until t = "), &until_s);

@@ -176,7 +176,7 @@ TEST(simulated, outputs_that_end) {
             const char *colon = strchr(wanted, ':');
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, colon), told);
             TEST_ASSERT_NOT_NULL(
-                strstr(told, "hint: define the output at every position of the run\n"));
+                strstr(told, "hint: write a formula that is finite in every state of the run\n"));
         } else {
             TEST_ASSERT_EQUAL_STRING("", told);
         }
