@@ -115,7 +115,7 @@ typedef enum wh_swing_piece {
     X(WH_SWING_FEW, "too few swings: friction stops the rotor") \
     X(WH_SWING_MISFIT, "the pulses do not fit a free swing") \
     X(WH_SWING_SIDES, "right and left look the same: the arms did not pass sensor 2") \
-    X(WH_SWING_WIDE, "the swings do not determine the angles: the interval is too wide")
+    X(WH_SWING_WIDE, "the swings do not determine the sensors' angles: the intervals are too wide")
 
 #define WH_SWING_NAME(name, words) name,
 typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swing_why;

@@ -123,7 +123,7 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
 #define ITEM(name, number, words) words "\0"
 #define FITS(name, number, words) \
     _Static_assert((number) <= 255 && sizeof(words) <= 96U, \
-                   "the number must fit in a byte, and the words in a line of a report");
+                   "the number must fit in a byte; the words must fit in a line of a report");
 WH_TRIP_ROWS(FITS)
 
 const char *wh_trip_text(wh_trip reason) {

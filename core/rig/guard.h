@@ -24,7 +24,7 @@ WH_C_BEGIN
       "the rotor turns with the motor off: the stage ignores its enable, or somebody turns the rotor") \
     X(WH_TRIP_SUPPLY, 11, "the motor's supply is out of its range, or too low for the speed") \
     X(WH_TRIP_UNBRAKED, 12, \
-      "the rotor does not slow when the motor brakes: the stage ignores its duty, or cannot brake") \
+      "the rotor does not slow when the motor brakes: the stage ignores its PWM duty or cannot brake") \
     X(WH_TRIP_FASTER, 14, \
       "a speed above the motor's limit: check no_load_speed, rated_voltage, the supply's divider") \
     X(WH_TRIP_ORDER, 15, \

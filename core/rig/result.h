@@ -25,23 +25,24 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_NONE, WH_GOOD, "no reason to doubt it") \
     X(WH_WHY_FEW_TURNS, WH_REFUSED, "fewer than three turns are usable") \
     X(WH_WHY_POLARITY, WH_REFUSED, \
-      "the force is opposite to the masses: check the cell's polarity and the sensors") \
+      "the force points opposite to the masses: check the cell's polarity and the sensors") \
     X(WH_WHY_AMPLITUDE, WH_REFUSED, \
       "the force differs from the value expected from masses, speed and mount") \
     X(WH_WHY_PHASE, WH_REFUSED, \
-      "the force is not in line with the masses: check the sensors and delays") \
-    X(WH_WHY_UNSURE, WH_REFUSED, "the interval is wider than a quarter of the force") \
+      "the force does not point along the masses: check the sensors and delays") \
+    X(WH_WHY_UNSURE, WH_REFUSED, "the result's interval is wider than a quarter of the force") \
     X(WH_WHY_AMPLITUDE_OFF, WH_DOUBTFUL, \
       "the force differs a little from the value expected from masses, speed and mount") \
-    X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force is slightly out of line with the masses") \
+    X(WH_WHY_PHASE_OFF, WH_DOUBTFUL, "the force points slightly beside the masses") \
     X(WH_WHY_PLACE, WH_DOUBTFUL, "sensor 1 is not where the arms hang: the phase has an error") \
     X(WH_WHY_LEFT_OUT, WH_DOUBTFUL, "more than a quarter of the turns could not be used") \
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
-    X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise, or orders other than the first, are large") \
+    X(WH_WHY_RESIDUAL, WH_DOUBTFUL, \
+      "noise or forces at other frequencies than the rotor's are large") \
     X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's pulses do not fit the rotor's motion") \
     X(WH_WHY_FED, WH_DOUBTFUL, "1/7 or more of gravity's torque remains uncompensated") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
-    X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
+    X(WH_WHY_WIDE, WH_DOUBTFUL, "the result's interval is wider than a twentieth of the force") \
     X(WH_WHY_SWING, WH_DOUBTFUL, "within a turn, the load's speed differs from the rotor's") \
     X(WH_WHY_REPEATS, WH_DOUBTFUL, \
       "the residual repeats each turn: clipping, play, a nonlinear gain, or a torque twice per turn")

@@ -49,7 +49,7 @@ const char *wh_list_item(const char *list, unsigned number);
     X(WH_STATION_SECONDS, 106, "give 0, or a number of seconds from 1 to 3600") \
     X(WH_STATION_BUSY, 107, "this works only while the rig is idle") \
     X(WH_STATION_CONF_HOW, 108, "conf has no such subcommand; help conf shows them") \
-    X(WH_STATION_CONF_NONE, 109, "no such setting; see conf list, then conf list NEXT") \
+    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list FROM shows them from number FROM") \
     X(WH_STATION_CONF_VALUE, 110, "not a value of this setting; conf get shows its type") \
     X(WH_STATION_CONF_RANGE, 111, "outside the setting's range; conf get shows it") \
     X(WH_STATION_CONF_AGAINST, 112, "conflicts with another speed, supply or motor setting") \

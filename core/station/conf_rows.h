@@ -48,17 +48,17 @@
     X(damping_tolerance, 4, WH_CONF_REAL, ONE, 0.0, 1.0, ALONE, measure.rotor.damping_tolerance, \
       "relative 95 % uncertainty of damping") \
     X(gravity, 5, WH_CONF_REAL, MPS2, 0.0, 20.0, ROTOR, measure.rotor.gravity_mps2, \
-      "in the plane of the arms; 0: horizontal plane") \
+      "gravity along the plane of the arms; 0: the plane is horizontal") \
     X(gravity_angle, 6, WH_CONF_REAL, DEG, -180.0, 180.0, ROTOR, measure.rotor.gravity_rad, \
       "angle at which the arms hang at rest") \
     X(mount_factor, 7, WH_CONF_REAL, ONE, 0.01, 1.0, ROTOR, measure.result.mount_factor, \
-      "force divided by the force on a fixed mount; carriage: M/(M + m), eccentrics m") \
+      "force divided by that on a fixed mount; M/(M + m) on a carriage M with eccentrics m") \
     X(sensor1, 8, WH_CONF_REAL, DEG, -30.0, 30.0, SENSORS, measure.rotor.pulse_rad[0], \
       "angle of sensor 1 from the loading-train axis") \
     X(sensor2, 9, WH_CONF_REAL, DEG, 60.0, 120.0, SENSORS, measure.rotor.pulse_rad[1], \
       "angle of sensor 2 from the loading-train axis") \
     X(slot_lead, 10, WH_CONF_REAL, DEG, 0.0, 20.0, SENSORS, swing.lead_rad, \
-      "angle from a pulse to its sensor") \
+      "a pulse comes this angle before the arms reach the sensor") \
     X(cell_scale, 11, WH_CONF_REAL, MILLINEWTON, 1e-4, 1000.0, CELL, \
       measure.cell.newton_per_count, "force of one count") \
     X(cell_reversed, 12, WH_CONF_SWITCH, ONE, 0.0, 1.0, CELL, measure.cell.newton_per_count, \
@@ -76,7 +76,7 @@
     X(record_turns, 18, WH_CONF_REAL, ONE, 3.0, 100.0, ALONE, measure.record_turns, \
       "least duration of the record, in turns") \
     X(settle_time, 19, WH_CONF_REAL, SECOND, 0.1, 30.0, ALONE, run.settle_s, \
-      "how long four-turn means are in settle_band before the record") \
+      "the record begins when four-turn mean speeds have been in settle_band for this time") \
     X(settle_band, 20, WH_CONF_REAL, RPM, 0.05, 20.0, ALONE, run.settle_band_radps, \
       "allowed deviation of the speed, up or down") \
     X(ramp, 21, WH_CONF_REAL, RPM_S, 5.0, 200.0, ALONE, run.drive.ramp_radps2, \
@@ -92,13 +92,13 @@
     X(speed_most, 26, WH_CONF_REAL, RPM, 60.0, 400.0, ALONE, guard.target_max_radps, \
       "largest set-point") \
     X(speed_limit, 27, WH_CONF_REAL, RPM, 70.0, 400.0, ALONE, guard.limit_radps, \
-      "a faster turn trips; keep it safe for the shaft") \
+      "the rig trips if a turn is faster; choose a speed that is safe for the shaft") \
     X(supply_least, 28, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_min_V, \
       "a lower supply voltage trips") \
     X(supply_most, 29, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_max_V, \
       "a higher supply voltage trips") \
     X(armed_time, 30, WH_CONF_REAL, SECOND, 1.0, 600.0, ALONE, armed_max_s, \
-      "longest time from arm to start") \
+      "start is allowed for this time after arm") \
     X(rest_time, 31, WH_CONF_REAL, SECOND, 5.0, 600.0, ALONE, rest_max_s, \
       "longest time until the rotor is at rest") \
     X(stop_brakes, 32, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, stop_brakes, \

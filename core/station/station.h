@@ -41,7 +41,7 @@
     X(tel, 2, WH_TEL_FOLLOWS, "telemetry on the same line; off after a reset") \
     X(selftest, 0, "", "test at rest: arithmetic, cell, supply, stop input") \
     X(host, 1, " SECONDS", \
-      "a run ends after this time without a byte; replaces setting host until a reset") \
+      "a run ends after this time without a byte; overrides the setting host until a reset") \
     X(talk, 1, " on|off", "echo typed characters, report each new state")
 
 /* 0 omits telemetry, for small chips: station->tel stays NULL. */

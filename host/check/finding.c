@@ -16,21 +16,21 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_CONSTANTS] =
         {"constants", FINDING_WARNING, 0.0, "numbers",
          "a value becomes infinite or undefined if the file's numbers are rounded differently",
-         "have constants in which rounding loses a small number that is added to a large one"},
+         "have constants that add a small number to a large one, and lose it in rounding"},
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
-         "an energy error of this size changes an amplitude by half of it: too small to see in a plot",
+         "a relative energy error of this size is an amplitude error of half the size: too small to see in a plot",
          "fail the energy balance: the residual exceeds its limit at the end or before (column " ENERGY_RESIDUAL_COLUMN
          ")"},
     [FINDING_ACCURACY] =
         {"accuracy", FINDING_WARNING, 0.5, "of the run",
-         "an error that grows steadily to 2 % at the end passes 1 % at half of the run",
+         "an error that grows steadily, and is 1 % at half of the run, is 2 % at the end",
          "have a coordinate or rate with a sudden error, or with an error above 1 % of its range in the first half of the run"},
     [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion continues through a pole",
                       "jumped over a pole of an expression"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
                         "the run ignores a contact or force that acts only between two evaluations",
-                        "passed, or may have passed, through a contact or over a brief force"},
+                        "missed, or may have missed, a contact or a brief force"},
     [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
                          "the tolerance of a trusted run, plus the error of the steps",
                          "alias a force or motion that is faster than the step"},
@@ -38,7 +38,7 @@ const finding_row finding_rows[FINDINGS] = {
                         "Whirl completes such a step with all loaded contacts at rest or sticking",
                         "had steps with more than eight moments with events"},
     [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of the held expression",
-                       "a start rounded to decimal digits violates a hold by less than this",
+                       "rounding a start to decimal digits violates a hold by less than this",
                        "have holds that the start violates"},
     [FINDING_DIGITS] =
         {"digits", FINDING_NOTE, SLOW_SHARE,

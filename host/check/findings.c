@@ -401,11 +401,12 @@ static bool say_cause(FILE *out, const run_checks *v) {
     } else if (is_reported(v, FINDING_ENERGY) && b->exact) {
         hint = "run with --number double: steps of --matrix exact have no error but round-off";
     } else if (is_reported(v, FINDING_ENERGY) && b->saturated) {
-        hint = "widen the range: range NAME = A .. B; values saturated, which changes the energy";
+        hint =
+            "declare a wider range: range NAME = A .. B; values outside it saturated, which changes the energy";
     } else if (v->warned == FINDING_BIT(FINDING_EVENTS) &&
                is_without_restitution(v->image, busiest(v, -1))) {
         hint =
-            "use restitution 0.01, or a force that presses the bodies together: without load, round-off separates bodies in contact again and again";
+            "use restitution 0.01, or a force that presses the bodies together: without a load, round-off repeatedly separates bodies that touch";
     }
     if (hint != NULL) {
         fprintf(out, "hint: %s\n", hint);

@@ -318,15 +318,14 @@ static void print_invariants(FILE *out, const horizon *h, const books *b,
 /* The earliest reason why nothing is known after cut_s. */
 static const char *cut_by(const step_doubling *t) {
     if (t->finer_failed_s >= 0.0 && t->finer_failed_s <= t->cut_s) {
-        return "after that the run with half the step fails";
+        return "the run with half the step fails at this time";
     }
     if (t->jumped_s < 0.0 || (t->overrun_s >= 0.0 && t->overrun_s < t->jumped_s)) {
-        return "after that a step of this run or of the finer run had more than eight moments with events";
+        return "a later step of this run or of the finer run had more than eight moments with events";
     }
     return t->missed
-               ? "after that a step of this run or of the finer run passed through a contact, or "
-                 "over an edge or a brief force"
-               : "after that a step of this run or of the finer run jumped over a pole of an expression";
+               ? "a later step of this run or of the finer run missed a contact, an edge or a brief force"
+               : "a later step of this run or of the finer run jumped over a pole of an expression";
 }
 
 /* Prints the time until which the run is accurate, and why not longer. If `end`, also prints the end of the run. */
@@ -386,7 +385,7 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     fputs("trusted            ", out);
     if (h->to_the_end && doubted) {
         fputs(
-            "unknown: the finer run agrees to the end, but may share the error that the warning names",
+            "unknown: this run and the finer run agree to the end, but both may have the error of the warning",
             out);
     } else if (h->to_the_end) {
         fprintf(out, "to the end: every coordinate to %.3g of its range", h->tolerance);

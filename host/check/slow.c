@@ -47,7 +47,7 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
     } else {
         fprintf(
             out,
-            "moves so slowly that rounding both its value to %.2g%s%s and its change in each step",
+            "moves so slowly that rounding in each step, of its value to %.2g%s%s and of its change,",
             kind->unit(run, i), space, unit);
     }
     fprintf(out, " causes an error of up to %.2g%s%s", off, space, unit);

@@ -21,8 +21,8 @@ static const command_usage usage = {
         "the mechanism can push the mechanism that way.\n"
         "\n"
         "Whirl reports other symmetries as not decided. The answer holds for the current values of the\n"
-        "parameters. If a direction shifts two lengths differently, a remark says that its momentum is not\n"
-        "the total momentum.\n"
+        "parameters. If a symmetry shifts two lengths by different amounts, a remark says that its momentum\n"
+        "may not be the total momentum.\n"
         "\n"
         "  --as text            for readers (default)\n"
         "  --as latex           for a paper (with amsmath)\n",
@@ -135,7 +135,7 @@ static void print_uncommon(const show *s, const equations *e, const symmetry *of
     if (moved[1] != NULL) {
         fprintf(
             s->out,
-            "%s%s and %s change by different amounts in this symmetry: if both are absolute and point in the same direction, its momentum is not the total momentum\n",
+            "%sthis symmetry shifts %s and %s by different amounts: if both are positions along the same fixed direction, its momentum is not the total momentum\n",
             prefix, moved[0]->name, moved[1]->name);
     }
 }

@@ -167,10 +167,11 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
     if (strstr(text, seen) != NULL) {
         printf("row: not added, because %s already has this record\n", page);
     } else if (length < 2 || strcmp(text + length - 2, "|\n") != 0) {
-        fprintf(stderr,
-                "%s: error: this page does not end with a table for the row\nhint: " LIGHT_PAGE
-                " does\n",
-                page);
+        fprintf(
+            stderr,
+            "%s: error: the row was not added, because this page does not end with a table\nhint: " LIGHT_PAGE
+            " does\n",
+            page);
         good = false;
     } else {
         good = atomic_file_print(page, "%s%s", text, row);

@@ -339,7 +339,7 @@ char *contacts_in_octave(const equations *e) {
     char *text;
     FILE *out = alloc_text(&text, NULL);
     show_events(out, e, EMIT_OCTAVE_COMMENT,
-                "This function has the motion between events. It does not contain:");
+                "This function computes the motion between events. It does not contain:");
     alloc_text_end(out);
     return text;
 }
@@ -384,7 +384,7 @@ void say_float_range(const image *im) {
             "warning: float cannot represent %.6g, a constant or an input of '%s' in SI units: quantities that "
             "depend on it are %s\n"
             "hint: float represents sizes from 1.2e-38 to 3.4e+38; choose larger or smaller "
-            "units, or use --number double (Whirl computes (s/r)^12 as s^12 times r^-12)\n",
+            "units, or use --number double; (s/r)^12 is computed as s^12 times r^-12, and both must be in this range\n",
             number, im->name, fabs(number) < 1.0 ? "imprecise or zero" : "infinite");
     }
 }

@@ -29,7 +29,7 @@
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
       "double (default, the reference) or float (the same bits as on boards); fixed, for " \
       "`whirl run` and `whirl derive --as c`: 32-bit integers, for smooth mechanisms on " \
-      "chips without an FPU, the same bits as in C") \
+      "chips without an FPU; the C code computes the same bits") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
       "compensated sums, which carry the round-off into the next step") \
     X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
@@ -37,11 +37,11 @@
       "runs without drive and damping. Adds the ledger.") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
       "turned (default): look up sines once a step and rotate them at the stages; lookup: " \
-      "look up the sines of each stage, for angles that turn up to half a turn a step") \
+      "look up the sines of each stage, if angles change by up to half a turn in a step") \
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
       "compute a whole step as one product with a constant matrix, for a linear mechanism " \
       "without events. exact: the exact motion, with inputs constant over the step; rk4: " \
-      "the step of RK4; none (default): --method") \
+      "the step of RK4; none (default): use --method") \
     X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
       "look up functions of one turn angle in tables in flash, instead of sines and " \
       "divisions. linear: the cheapest without an FPU; cubic: nearly exact; none (default)") \
@@ -173,7 +173,8 @@ typedef struct own_option {
 #define OWN_WHOLE(name, to, from, up_to, such_as) \
     { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as, .whole = true }
 #define OWN_TOLERANCE(to) \
-    OWN_NUMBER("--tolerance", to, 1e-15, 1.0, "a part of each coordinate's range: --tolerance 1e-3")
+    OWN_NUMBER("--tolerance", to, 1e-15, 1.0, \
+               "a fraction of each coordinate's range: --tolerance 1e-3")
 #define OWN_EFFORT(to, such_as) \
     OWN_NUMBER("--effort", to, EFFORT_LEAST, EFFORT_MOST, "operations: --effort " such_as)
 

@@ -362,7 +362,7 @@ static int show(pricing *p, const table *made) {
         table_print(out, &p->trial, made, value[PRICING_ALL] != NULL);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
-        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->typed,
+        fprintf(stderr, "whirl price: error: no setting of '%s' has a known error%s\n", p->typed,
                 p->trial.reliable ? ": the table has no row" : ": there is no reliable reference");
         return EXIT_RUN_FAILED;
     }
@@ -431,8 +431,8 @@ static int price_scene(void *options) {
 int command_price(int count, char **words) {
     static const pricing_command price = {
         "price", PRICING_PRICE, price_head,
-        "no reference is accurate enough, or no setting follows the motion, has a cost, or\n      "
-        " is within --error",
+        "no reference is accurate enough, no setting follows the motion, none has a\n       "
+        "cost, or none is within --error",
         price_scene};
     return run_command(&price, count, words);
 }
@@ -600,9 +600,10 @@ static int choose_begun(pricing *p, choice_request *w) {
     }
     char *prices = alloc_words(
         "%s%s",
-        missing == NULL ? "counted on the board: the step or the whole run, and the bytes"
-        : predicts      ? "predicted, as --predict asks for"
-                        : "predicted, because the instructions cannot be counted: ",
+        missing == NULL
+            ? "counted on the board: the cost of a step or of the whole run, and the bytes"
+        : predicts ? "predicted, as --predict asks for"
+                   : "predicted, because the instructions cannot be counted: ",
         missing != NULL ? missing : "");
     w->prices = prices;
     const int done = choose_from(p, w, missing == NULL);

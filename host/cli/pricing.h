@@ -18,7 +18,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "the error of one output, coordinate or rate, in its declared unit (default: the " \
       "worst coordinate or rate, as a part of its largest value)") \
     X(PRICING_ERROR, BOTH, "--error", "0.1mm", \
-      "the allowed error: in the unit of --of, else a part of the largest value. X=0.1mm " \
+      "the allowed error: with --of in its unit, else a fraction of the largest value. X=0.1mm " \
       "includes --of X. A bare number is refused if the declared unit is not SI.") \
     X(PRICING_HORIZON, BOTH, "--horizon", "T", \
       "compare errors up to this time (default: the scene's end). In a chaotic motion Whirl " \

@@ -76,7 +76,7 @@ while read -r left right lines; do
         echo 'scene go { step 1 [ms]; until 1 [s] }'
     } >"$scratch/carts.whirl"
     "$whirl" examine "$scratch/carts.whirl" >"$scratch/out" 2>&1
-    remarks=$(grep -c '^     u and v change by different amounts in this symmetry: if both are absolute and point in the same direction, its momentum is not the total momentum' "$scratch/out")
+    remarks=$(grep -c '^     this symmetry shifts u and v by different amounts: if both are positions along the same fixed direction, its momentum is not the total momentum' "$scratch/out")
     [ "$remarks" -eq $((left + right != 0)) ] && grep -q 'conserved momenta: 1$' "$scratch/out"
     verdict $? "forces $left f and $right f: the total momentum or not" "$scratch/out"
     says "the spring's line" "potential energy V, line $((lines + 8)) (effect tied): -u$" "$scratch/carts.whirl" --with tied

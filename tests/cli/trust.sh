@@ -119,7 +119,7 @@ verdict $? "a run that diverges: status 1, and until when it was right" "$scratc
 verdict $? "whirl run says nothing of trust where it fails" "$scratch/out"
 "$whirl" trust thomson_a --until 0 >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted to the end, t = 0 s' "$scratch/out"
 verdict $? "a run of no step" "$scratch/out"
-"$whirl" trust ball_between >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted until t = 0 s of .*: after that a step of this run or of the finer run had more than eight moments with events' "$scratch/out"
+"$whirl" trust ball_between >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted until t = 0 s of .*: a later step of this run or of the finer run had more than eight moments with events' "$scratch/out"
 verdict $? "steps with more events than they take: nothing is known" "$scratch/out"
 
 # --- what is refused -------------------------------------------------------------------------------------------------------

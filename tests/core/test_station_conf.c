@@ -340,7 +340,7 @@ TEST(station_conf, refusals) {
         {"conf set gain 1 2", "ERR 102 "},
         {"conf list 1 2", "ERR 102 "},
         {"conf list -1", "ERR 109 "},
-        {"conf list all", "ERR 109 no such setting; see conf list, then conf list NEXT"},
+        {"conf list all", "ERR 109 no such setting; conf list FROM shows them from number FROM"},
         {"conf get gains", "ERR 109 "},
         {"conf set gains 1", "ERR 109 "},
         {"conf set gain much", "ERR 110 "},

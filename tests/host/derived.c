@@ -195,7 +195,7 @@ void derived_octave(FILE *out, const derived *d, const char *file, bool folded) 
     FILE *words = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(words);
     show_events(words, d->equations, "% ",
-                "This function has the motion between events. It does "
+                "This function computes the motion between events. It does "
                 "not contain:");
     fclose(words);
     if (folded) {
