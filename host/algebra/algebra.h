@@ -35,6 +35,7 @@ struct algebra {
     intern_table lets;        /* memo_pair objects: left is the let's symbol, right is NULL */
     /* bytes of all new objects, plus WORK_OF_TERM for each processed term; the limit is WORK_MAX (poly.c) */
     size_t work;
+    folding *folding; /* of the coefficients; may be NULL */
     bool overflow;
     const poly *zero;
     const poly *one;
@@ -58,7 +59,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 int poly_order(const poly *x, const poly *y);
 
 /* x + y, or 0 if the sum is at most 1e-14 of the larger addend, because it is then only round-off. */
-double coefficient_sum(double x, double y);
+double coefficient_sum(folding *f, double x, double y);
 /* Is p a sum of at least two terms that contain only numbers, positions, parameters and inputs? */
 bool poly_is_place(const poly *p);
 

@@ -105,12 +105,13 @@ bool poly_is_number(const poly *p, double *value) {
     return false;
 }
 
-double coefficient_sum(double x, double y) {
+double coefficient_sum(folding *f, double x, double y) {
     if (!isfinite(x + y)) { /* folding_cancels() would take any infinite sum for zero */
         return x + y;
     }
-    return folding_cancels(x + y, number_most(fabs(x), fabs(y)), CANCELLED) ? 0.0
-                                                                            : folding_sum(x, y);
+    return folding_cancels(f, x + y, number_most(fabs(x), fabs(y)), CANCELLED)
+               ? 0.0
+               : folding_sum(f, x, y);
 }
 
 static bool exponent_is_whole(double x) { return x == number_floor(x) && fabs(x) < 1e6; }
@@ -175,7 +176,7 @@ static void push(poly_sum *s, const mono *m, double coefficient) {
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale) {
     count_terms(a, (size_t)p->count + 1);
     for (int i = 0; i < p->count && !a->overflow; i++) {
-        push(s, p->terms[i].mono, folding_product(p->terms[i].coefficient, scale));
+        push(s, p->terms[i].mono, folding_product(a->folding, p->terms[i].coefficient, scale));
     }
 }
 
@@ -189,7 +190,7 @@ static int by_mono(const void *x, const void *y) {
 }
 
 /* Sorts the terms. Adds terms that have the same `mono`, in the order in which they entered the sum. */
-static void collect(poly_sum *s) {
+static void collect(folding *f, poly_sum *s) {
     if (s->count > 1) {
         qsort(s->items, s->count, sizeof *s->items, by_mono);
     }
@@ -197,7 +198,7 @@ static void collect(poly_sum *s) {
     for (size_t i = 0; i < s->count;) {
         sum_item sum = s->items[i++];
         for (; i < s->count && s->items[i].mono == sum.mono; i++) {
-            sum.coefficient = coefficient_sum(sum.coefficient, s->items[i].coefficient);
+            sum.coefficient = coefficient_sum(f, sum.coefficient, s->items[i].coefficient);
         }
         if (sum.coefficient != 0.0) {
             s->items[kept++] = sum;
@@ -207,7 +208,7 @@ static void collect(poly_sum *s) {
 }
 
 const poly *sum_close(algebra *a, poly_sum *s) {
-    collect(s);
+    collect(a->folding, s);
     poly *p = poly_scratch((int)s->count);
     for (size_t i = 0; i < s->count; i++) {
         p->terms[p->count++] = (poly_term){s->items[i].coefficient, s->items[i].mono};
@@ -290,6 +291,14 @@ void algebra_free(algebra *a) {
 
 void *algebra_room(algebra *a, int count, size_t size) {
     return arena_alloc(a->arena, (size_t)count * size);
+}
+
+folding *algebra_folding(const algebra *a) { return a->folding; }
+
+folding *algebra_fold(algebra *a, folding *f) {
+    folding *const before = a->folding;
+    a->folding = f;
+    return before;
 }
 
 bool algebra_overflow(const algebra *a) { return a->overflow; }
@@ -536,13 +545,13 @@ const poly *poly_scale(algebra *a, const poly *p, double scale) {
     return scale == 0.0 ? a->zero : poly_each_number(a, p, folding_product, scale);
 }
 
-const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
-                             double by) {
+const poly *poly_each_number(algebra *a, const poly *p,
+                             double (*change)(folding *f, double number, double by), double by) {
     count_terms(a, (size_t)p->count);
     poly *changed = poly_scratch(p->count);
     /* the terms stay sorted, because only their coefficients change */
     for (int i = 0; i < p->count; i++) {
-        const double number = change(p->terms[i].coefficient, by);
+        const double number = change(a->folding, p->terms[i].coefficient, by);
         if (number != 0.0) {
             changed->terms[changed->count++] = (poly_term){number, p->terms[i].mono};
         }
@@ -555,7 +564,8 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
-        return poly_number(a, folding_call(kind == TRIG_SIN ? FN_SIN : FN_COS, value, 0.0));
+        return poly_number(
+            a, folding_call(a->folding, kind == TRIG_SIN ? FN_SIN : FN_COS, value, 0.0));
     }
     double sign = 1.0;
     if (angle->terms[0].coefficient < 0.0) {
@@ -664,9 +674,10 @@ static const poly *product_of(algebra *a, const poly *left, const poly *right) {
         for (int j = 0; j < right->count && !a->overflow; j++) {
             const poly *p = mono_product(a, left->terms[i].mono, right->terms[j].mono);
             sum_add(a, &row, p,
-                    folding_product(left->terms[i].coefficient, right->terms[j].coefficient));
+                    folding_product(a->folding, left->terms[i].coefficient,
+                                    right->terms[j].coefficient));
         }
-        collect(&row);
+        collect(a->folding, &row);
         for (size_t k = 0; k < row.count; k++) {
             push(&sum, row.items[k].mono, row.items[k].coefficient);
         }
@@ -720,8 +731,9 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         }
         const mono *powered = mono_make(a, f, count, TRIG_NONE, NULL);
         free(f);
-        return poly_mul(a, poly_of_term(a, folding_power(t->coefficient, exponent), powered),
-                        extra);
+        return poly_mul(
+            a, poly_of_term(a, folding_power(a->folding, t->coefficient, exponent), powered),
+            extra);
     }
     if (whole && exponent > 0.0 && exponent <= 16.0) {
         const poly *base = poly_of_term(a, t->coefficient, m);
@@ -737,8 +749,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     }
     /* A fractional power of a negative coefficient is not real, so the sign stays inside. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
-    const double outside = whole ? folding_power(t->coefficient, exponent)
-                                 : folding_power(fabs(t->coefficient), exponent);
+    const double outside = whole ? folding_power(a->folding, t->coefficient, exponent)
+                                 : folding_power(a->folding, fabs(t->coefficient), exponent);
     const poly *inside = poly_of_term(a, whole ? 1.0 : sign, m);
     if (m->count == 1 && m->trig == TRIG_NONE && m->factors[0].exponent == 1.0 && sign > 0.0) {
         return poly_scale(a, poly_of_atom(a, m->factors[0].atom, exponent), outside);
@@ -755,7 +767,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         return base;
     }
     if (poly_is_number(base, &value)) {
-        return poly_number(a, folding_power(value, exponent));
+        return poly_number(a, folding_power(a->folding, value, exponent));
     }
     if (base->count == 1) {
         return term_pow(a, &base->terms[0], exponent);
@@ -793,7 +805,7 @@ const poly *poly_call(algebra *a, function_id function, const poly *x, const pol
     double vx;
     double vy = 0.0;
     if (poly_is_number(x, &vx) && (y == NULL || poly_is_number(y, &vy))) {
-        return poly_number(a, folding_call(function, vx, vy));
+        return poly_number(a, folding_call(a->folding, function, vx, vy));
     }
     /* Sine, cosine and square root have normal forms of their own; other functions are atoms. */
     if (function == FN_SIN) {

@@ -6,6 +6,9 @@
 
 algebra *algebra_new(void);
 void algebra_free(algebra *a); /* `a` may be NULL */
+folding *algebra_folding(const algebra *a);
+/* Sets the folding of the coefficients, which may be NULL. Returns the previous one. */
+folding *algebra_fold(algebra *a, folding *f);
 /* Returns `count` zeroed elements, which algebra_free() frees. */
 void *algebra_room(algebra *a, int count, size_t size);
 
@@ -26,8 +29,8 @@ const poly *poly_add(algebra *a, const poly *left, const poly *right);
 const poly *poly_sub(algebra *a, const poly *left, const poly *right);
 const poly *poly_scale(algebra *a, const poly *p, double scale);
 /* p with each coefficient c replaced by change(c, by) */
-const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
-                             double by);
+const poly *poly_each_number(algebra *a, const poly *p,
+                             double (*change)(folding *f, double number, double by), double by);
 const poly *poly_mul(algebra *a, const poly *left, const poly *right);
 const poly *poly_pow(algebra *a, const poly *base, double exponent);
 const poly *poly_pow_poly(algebra *a, const poly *base, const poly *exponent);

@@ -536,8 +536,7 @@ equations *equations_derive(const instance *inst, diags *errors) {
     algebra *a = algebra_new();
     equations *e = algebra_room(a, 1, sizeof *e);
     e->folding = inst->folding;
-    e->folding.way = folding_way();
-    folding *const before_it = folding_use(&e->folding);
+    (void)algebra_fold(a, &e->folding);
     e->algebra = a;
     e->instance = inst;
     e->count = n;
@@ -562,7 +561,7 @@ equations *equations_derive(const instance *inst, diags *errors) {
         good = false;
     }
     good = good && equations_check_solvable(e, errors);
-    (void)folding_use(before_it);
+    (void)algebra_fold(a, NULL);
     if (!good) {
         equations_free(e);
         return NULL;

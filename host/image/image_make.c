@@ -235,9 +235,9 @@ static image *with_matrix(image_draft *d, const equations *e, diags *errors) {
     return NULL;
 }
 
-/* As image_make(), without variants. */
-static image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
-                         image_use use, diags *errors) {
+/* As image_once(), with the current folding of the algebra. */
+static image *image_folded(const equations *e, const bool *conserve, const image_settings *settings,
+                           image_use use, diags *errors) {
     program *p = program_make(e, conserve, settings, errors);
     if (p == NULL) {
         return NULL;
@@ -246,7 +246,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     image *im = d->made;
     /* contacts forbid scaling, because their lists use the step's mass matrix */
     if (settings->compensated && im->contacts == 0 && settings->tables == TABLES_NONE &&
-        folding_way() == FOLDING_NEAREST) {
+        folding_way(algebra_folding(e->algebra)) == FOLDING_NEAREST) {
         op_list_scale(&im->list[IMAGE_STEP], op_list_scaling_price(im->list[IMAGE_STEP]));
     }
     im->hash = program_hash(p);
@@ -267,6 +267,20 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         diagnostics_make(d, e);
     }
     return with_matrix(d, e, errors);
+}
+
+/* As image_make(), without variants. All constants are folded with `f`. */
+static image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
+                         image_use use, folding *f, diags *errors) {
+    folding *const before = algebra_fold(e->algebra, f);
+    image *im = image_folded(e, conserve, settings, use, errors);
+    for (int role = 0; im != NULL && role < IMAGE_ROLES; role++) {
+        if (im->list[role] != NULL) {
+            im->list[role]->folding = NULL; /* the list outlives `f` */
+        }
+    }
+    (void)algebra_fold(e->algebra, before);
+    return im;
 }
 
 image *image_again(const image *base, const instance *inst, diags *errors) {
@@ -327,13 +341,12 @@ static image *make_refolded(image *im, const equations *e, const bool *conserve,
                             const image_settings *settings, int way) {
     diags *unsaid = diags_new();
     folding varied = {.way = way};
-    folding *const before = folding_use(&varied);
-    instance *again = instance_again(e->instance);
+    instance *again = instance_again(e->instance, way);
     im->unbounded = im->unbounded || again == NULL;
     equations *other = again != NULL ? equations_derive(again, unsaid) : NULL;
-    image *made =
-        other != NULL ? image_once(other, conserve, settings, IMAGE_TO_WRITE, unsaid) : NULL;
-    (void)folding_use(before);
+    image *made = other != NULL
+                      ? image_once(other, conserve, settings, IMAGE_TO_WRITE, &varied, unsaid)
+                      : NULL;
     equations_free(other);
     instance_free(again);
     diags_free(unsaid);
@@ -348,9 +361,7 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
                   image_use use, diags *errors) {
     folding nearest = e->folding;
     nearest.way = FOLDING_NEAREST;
-    folding *const before = folding_use(&nearest);
-    image *im = image_once(e, conserve, settings, use, errors);
-    (void)folding_use(before);
+    image *im = image_once(e, conserve, settings, use, &nearest, errors);
     if (im == NULL) {
         return NULL;
     }

@@ -203,7 +203,7 @@ static int products_of(algebra *a, const poly *p, int base, const family *f, pie
     int count = 0;
     bool vanishes = false; /* is the sum zero at 0 or at pi/2? */
     for (int j = 0; j <= sum.degree; j++) {
-        if (folding_cancels(sum.coefficient[j], sum.added[j], CANCELLED)) {
+        if (folding_cancels(algebra_folding(a), sum.coefficient[j], sum.added[j], CANCELLED)) {
             vanishes = vanishes || j == 0 || j == sum.degree;
             continue;
         }
@@ -251,7 +251,8 @@ static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
             const poly_term *flat = &p->terms[j];
             if (used[j] || flat->mono->trig != TRIG_NONE ||
                 !same_factors(flat->mono, turning->mono) ||
-                !folding_same(fabs(flat->coefficient), fabs(turning->coefficient), SAME_PIECE)) {
+                !folding_same(algebra_folding(a), fabs(flat->coefficient),
+                              fabs(turning->coefficient), SAME_PIECE)) {
                 continue;
             }
             const bool like = (flat->coefficient < 0.0) == (turning->coefficient < 0.0);
@@ -568,7 +569,8 @@ void lower_done(lowering *l) {
 void lower_multiply(lowering *l, node_product *p, int node, int exponent) {
     double value;
     if (op_list_is_constant(l->list, node, &value)) {
-        p->coefficient = folding_product(p->coefficient, folding_power(value, exponent));
+        folding *const f = l->list->folding;
+        p->coefficient = folding_product(f, p->coefficient, folding_power(f, value, exponent));
         return;
     }
     for (int i = 0; i < p->count; i++) {
@@ -666,7 +668,8 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
         const double size = fabs(products[i].coefficient);
         bool all_negative = true;
         for (int k = 0; k < count; k++) {
-            member[k] = !done[k] && folding_same(fabs(products[k].coefficient), size, SAME);
+            member[k] =
+                !done[k] && folding_same(t->folding, fabs(products[k].coefficient), size, SAME);
             done[k] = done[k] || member[k];
             all_negative = all_negative && (!member[k] || products[k].coefficient < 0.0);
         }

@@ -34,16 +34,16 @@ static bool is_constant(const double_double *c, int columns) {
     return constant;
 }
 
-static double_double sum(double_double a, double_double b) {
+static double_double sum(folding *f, double_double a, double_double b) {
     const double_double both = double_double_add(a, b);
-    return folding_cancels(both.high, fabs(a.high) + fabs(b.high), GHOST) ? double_double_of(0.0)
-                                                                          : both;
+    return folding_cancels(f, both.high, fabs(a.high) + fabs(b.high), GHOST) ? double_double_of(0.0)
+                                                                             : both;
 }
 
-static void add(const double_double *a, const double_double *b, double sign, int columns,
-                double_double *to) {
+static void add(folding *f, const double_double *a, const double_double *b, double sign,
+                int columns, double_double *to) {
     for (int i = 0; i < columns; i++) {
-        to[i] = sum(a[i], double_double_scale(b[i], sign));
+        to[i] = sum(f, a[i], double_double_scale(b[i], sign));
     }
 }
 
@@ -59,13 +59,14 @@ static bool step(const image *im, const op *o, const double_double *all, double_
     const double_double *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
     const double_double *b = all + (ptrdiff_t)(o->b >= 0 ? o->b : 0) * columns;
     const int last = columns - 1;
+    folding *const f = im->list[IMAGE_STEP]->folding;
     switch (o->code) {
     case OP_CONSTANT: to[last] = double_double_of(o->value); return true;
     case OP_LINEAR:
     case OP_RATE:
     case OP_INPUT: to[column_of(im, o)] = double_double_of(1.0); return true;
-    case OP_ADD: add(a, b, 1.0, columns, to); return true;
-    case OP_SUB: add(a, b, -1.0, columns, to); return true;
+    case OP_ADD: add(f, a, b, 1.0, columns, to); return true;
+    case OP_SUB: add(f, a, b, -1.0, columns, to); return true;
     case OP_NEG: multiply(a, double_double_of(-1.0), columns, to); return true;
     case OP_MUL: {
         const bool left = is_constant(a, columns);
@@ -422,6 +423,7 @@ static op_list *make_list(const image *im, double_double *change, double_double 
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;
     op_list *t = op_list_new(im->angles, states + (compensated ? im->reals : 0));
+    t->folding = im->list[IMAGE_STEP]->folding;
     for (int i = 0; i < states; i++) {
         double_double *row = change + (ptrdiff_t)i * affine_columns(im);
         if (i < im->angles) {

@@ -236,7 +236,7 @@ int op_list_unary(op_list *t, op_code code, int a) {
     }
     const function_id function = op_list_function(&(op){.code = code});
     if (function != FUNCTION_NONE && op_list_is_constant(t, a, &x)) {
-        return op_list_constant(t, folding_call(function, x, 0.0));
+        return op_list_constant(t, folding_call(t->folding, function, x, 0.0));
     }
     return enter_op(t, code, a, -1);
 }
@@ -247,7 +247,7 @@ int op_list_add(op_list *t, int a, int b) {
     const bool fixed_a = op_list_is_constant(t, a, &x);
     const bool fixed_b = op_list_is_constant(t, b, &y);
     if (fixed_a && fixed_b) {
-        return op_list_constant(t, folding_sum(x, y));
+        return op_list_constant(t, folding_sum(t->folding, x, y));
     }
     if (fixed_a && x == 0.0) {
         return b;
@@ -270,7 +270,7 @@ int op_list_sub(op_list *t, int a, int b) {
     const bool fixed_a = op_list_is_constant(t, a, &x);
     const bool fixed_b = op_list_is_constant(t, b, &y);
     if (fixed_a && fixed_b) {
-        return op_list_constant(t, folding_sum(x, -y));
+        return op_list_constant(t, folding_sum(t->folding, x, -y));
     }
     if (a == b) {
         return op_list_constant(t, 0.0);
@@ -296,7 +296,7 @@ int op_list_mul(op_list *t, int a, int b) {
     const bool fixed_a = op_list_is_constant(t, a, &x);
     const bool fixed_b = op_list_is_constant(t, b, &y);
     if (fixed_a && fixed_b) {
-        return op_list_constant(t, folding_product(x, y));
+        return op_list_constant(t, folding_product(t->folding, x, y));
     }
     if (fixed_b) {
         return op_list_mul(t, b, a);
@@ -315,7 +315,8 @@ int op_list_mul(op_list *t, int a, int b) {
             return op_list_mul(t, op_list_constant(t, -x), t->ops[b].a);
         }
         if (t->ops[b].code == OP_MUL && op_list_is_constant(t, t->ops[b].a, &y)) {
-            return op_list_mul(t, op_list_constant(t, folding_product(x, y)), t->ops[b].b);
+            return op_list_mul(t, op_list_constant(t, folding_product(t->folding, x, y)),
+                               t->ops[b].b);
         }
         return enter_op(t, OP_MUL, a, b);
     }

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "host/number/functions.h"
+#include "host/number/folding.h"
 
 /* === the operations =========================================================================== */
 /* The table of operations. Code that lists the operations uses these rows, or switches over op_code with -Wswitch-enum.
@@ -141,6 +141,7 @@ typedef struct op_list {
     int results;
     op_list_tables tables; /* without tables: all zero */
     struct arena *arena;
+    folding *folding; /* of the constants while the list is made; may be NULL */
 } op_list;
 
 op_list *op_list_new(int angles, int results);

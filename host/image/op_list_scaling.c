@@ -390,6 +390,7 @@ static int make(const multiplied *m, int i) {
 
 op_list *op_list_multiplied(const op_list *t, const double *times) {
     multiplied m = {t, times, op_list_new(t->angles, t->results), alloc(t->count, sizeof(int))};
+    m.to->folding = t->folding;
     for (int i = 0; i < t->count; i++) {
         m.made[i] = make(&m, i);
     }

@@ -20,6 +20,7 @@ _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SET
 /* Returns a list that computes wanted[count], which layout_ready() has made ready. */
 static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     op_list *t = op_list_new(map->angles, count);
+    t->folding = algebra_folding(map->equations->algebra);
     lowering l = layout_lowering(map, t);
     lower_plan(&l, wanted, count);
     for (int i = 0; i < count; i++) {
@@ -70,6 +71,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     const int n = map->equations->count;
     const int stride = WH_LAW_ROWS + 2 * map->coordinates;
     op_list *t = op_list_new(map->angles, laws->forced * stride);
+    t->folding = algebra_folding(map->equations->algebra);
     int *pushed = algebra_room(map->equations->algebra, n, sizeof *pushed);
     const poly **row = polys(map, n + 3);
     linear_system load = *s;
@@ -451,6 +453,7 @@ static op_list *make_step(layout *map, const linear_system *s) {
     const int components = map->angles + map->reals;
     const bool second = map->form == WH_SECOND_ORDER;
     op_list *t = op_list_new(map->angles, second ? map->coordinates : components);
+    t->folding = algebra_folding(map->equations->algebra);
     int *highest = algebra_room(map->equations->algebra, n, sizeof *highest);
     lowering l = layout_lowering(map, t);
     linear_system sparing = *s;
@@ -481,6 +484,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     const int n = e->count;
     const int first = keep ? n : 0;
     op_list *t = op_list_new(map->angles, first + count);
+    t->folding = algebra_folding(e->algebra);
     int *highest = algebra_room(map->equations->algebra, n, sizeof *highest);
     const poly **folded = polys(map, count + e->instance->mechanism->noise_count);
     lowering l = layout_lowering(map, t);

@@ -419,10 +419,10 @@ static double choose_scales(const linear_system *s, double *scale) {
 }
 
 /* Returns c * scale. If only round-off separates it from a multiple of 1/48, returns that multiple. */
-static double scale_number(double c, double scale) {
-    const double scaled = folding_product(c, scale);
+static double scale_number(folding *f, double c, double scale) {
+    const double scaled = folding_product(f, c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
-    return nearest != 0.0 && folding_same(scaled, nearest, 1e-15) ? nearest : scaled;
+    return nearest != 0.0 && folding_same(f, scaled, nearest, 1e-15) ? nearest : scaled;
 }
 
 static const poly *scale_simply(algebra *a, const poly *p, double scale) {
@@ -571,7 +571,7 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];
     for (int h = 0; h < w->hinges; h++) {
-        w->inverse[h] = scale_number(w->inverse[h], common);
+        w->inverse[h] = scale_number(algebra_folding(a), w->inverse[h], common);
     }
     scale_equations(a, n, w->mass, w->force, w->gone, common);
     for (int i = 0; i < n; i++) {
@@ -690,6 +690,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
 /* Returns the weight of an arrangement's list, or -1 if the arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     op_list *t = op_list_new(l->list->angles, s->n);
+    t->folding = l->list->folding;
     int weight = -1;
     if (enter(l, t, s, how, t->result)) {
         for (int i = 0; i < s->n; i++) {

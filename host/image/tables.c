@@ -477,6 +477,7 @@ static products products_of(const op_list *list, refusal *why) {
                   .result = alloc(list->results, sizeof *p.result),
                   .results = list->results,
                   .memory = arena_new()};
+    p.coefficients->folding = list->folding;
     collecting c = {&p, list, alloc(list->count, sizeof *c.sum),
                     alloc(list->count, sizeof *c.number), why};
     *why = (refusal){NULL, NULL, -1};
@@ -708,6 +709,7 @@ static int write_result(const tabling *t, const op_list *list, lowering *l, int 
 
 static op_list *write_list(const tabling *t, const op_list *list, image_tables form, int bits) {
     op_list *made = op_list_new(list->angles, list->results);
+    made->folding = list->folding;
     lowering l = {.list = made};
     const table_functions functions = {t->from->coefficients, t->multiple, t->table};
     op_list_tables_new(made, t->tables, bits,

@@ -455,6 +455,7 @@ static instance *begin(const mechanism *of, const scene *from, const overrides *
     made->name = from != NULL ? from->name : of->name;
     allocate(made);
     *what = plan_new(made, all);
+    what->values.folding = &made->folding;
     if (from != NULL) {
         apply_scene(what, from, made);
     }
@@ -482,15 +483,12 @@ bool instance_duration(const mechanism *of, const scene *from, const overrides *
 instance *instance_make(const mechanism *of, const scene *from, const overrides *changes,
                         diags *all) {
     const size_t calls = diags_calls(all);
-    folding noted = {.way = folding_way()};
-    folding *const before = folding_use(&noted);
     plan what;
     instance *made = begin(of, from, changes, all, &what);
     evaluate(&what, made);
     evaluate_ranges(&what, made);
     evaluate_durations(&what, made);
-    made->folding = noted;
-    (void)folding_use(before);
+    what.values.folding = NULL;
     if (diags_calls(all) == calls) {
         limits_check(made, &what.values);
     }
@@ -501,7 +499,7 @@ instance *instance_make(const mechanism *of, const scene *from, const overrides 
     return made;
 }
 
-instance *instance_again(const instance *first) {
+instance *instance_again(const instance *first, int way) {
     struct arena *memory = arena_new();
     instance *made = arena_alloc(memory, sizeof *made);
     *made = *first;
@@ -509,6 +507,8 @@ instance *instance_again(const instance *first) {
     allocate_numbers(made);
     diags *unsaid = diags_new();
     plan what = plan_new(made, unsaid);
+    made->folding.way = way;
+    what.values.folding = &made->folding;
     for (int i = 0; i < made->mechanism->parameter_count; i++) {
         what.values.parameter_expr[i] = first->parameter_given[i];
     }

@@ -306,9 +306,9 @@ const effect *instance_lacks(const instance *instance, const symbol *what);
 /* Evaluates `scene` or, if NULL, the mechanism at rest at zero. `changes` may be NULL. Returns NULL after an error. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
-/* A copy with parameters, inputs and initial values computed with the current folding_way(). `first` must outlive it.
+/* A copy with parameters, inputs and initial values computed with another folding.way. `first` must outlive it.
  * Returns NULL if a value is not finite. */
-instance *instance_again(const instance *first);
+instance *instance_again(const instance *first, int way);
 void instance_free(instance *instance);
 
 /* Reads *seconds, at least 0, from the command line's `text`, such as "1.5 [s]". `scene` and `changes` give the values

@@ -171,18 +171,19 @@ static double symbol_value(const symbol *named, int primes, valuation *known) {
 }
 
 double expr_value(const expr *tree, valuation *known) {
+    folding *const f = known != NULL ? known->folding : NULL;
     const double a = tree->left == NULL ? 0.0 : expr_value(tree->left, known);
     const double b = tree->right == NULL ? 0.0 : expr_value(tree->right, known);
     switch (tree->op) {
     case EXPR_NUMBER: return tree->number;
     case EXPR_SYMBOL: return symbol_value(tree->symbol, tree->primes, known);
-    case EXPR_ADD: return folding_sum(a, b);
-    case EXPR_SUB: return folding_sum(a, -b);
-    case EXPR_MUL: return folding_product(a, b);
-    case EXPR_DIV: return folding_quotient(a, b);
-    case EXPR_POW: return folding_power(a, b);
+    case EXPR_ADD: return folding_sum(f, a, b);
+    case EXPR_SUB: return folding_sum(f, a, -b);
+    case EXPR_MUL: return folding_product(f, a, b);
+    case EXPR_DIV: return folding_quotient(f, a, b);
+    case EXPR_POW: return folding_power(f, a, b);
     case EXPR_NEG: return -a;
-    case EXPR_CALL: return folding_call(tree->function, a, b);
+    case EXPR_CALL: return folding_call(f, tree->function, a, b);
     }
     return (double)NAN;
 }

@@ -42,6 +42,7 @@ typedef struct valuation {
     int primes_most;
     int depth; /* current depth of the recursion through the parameters' expressions */
     diags *diags;
+    folding *folding; /* of the sums and functions; may be NULL */
 } valuation;
 
 valuation valuation_new(const mechanism *of, struct arena *arena, diags *diags);

@@ -9,7 +9,7 @@
  *     merging of nearly equal numbers. There are several ways, because round-offs may cancel by chance in one
  *     way (compare Vignes, A stochastic arithmetic for reliable scientific computation, 1993).
  *
- * folding_use() sets the `folding` of the whole program. */
+ * Every function takes the `folding` of its derivation; NULL rounds to nearest and records nothing. */
 #ifndef NUMBER_FOLDING_H
 #define NUMBER_FOLDING_H
 
@@ -31,22 +31,19 @@ typedef struct folding {
     double rest[FOLDING_RESTS]; /* absolute values of the residues */
 } folding;
 
-/* Makes `f` the current folding. Returns the previous one, which the caller must restore before `f` goes out of
- * scope. */
-folding *folding_use(folding *f);
-int folding_way(void);
+int folding_way(const folding *f);
 
 /* If folding.way is FOLDING_NEAREST, these functions update folding.lost and folding.rest. */
-double folding_sum(double x, double y);
-double folding_product(double x, double y);
-double folding_quotient(double x, double y);
-double folding_power(double base, double exponent);
+double folding_sum(folding *f, double x, double y);
+double folding_product(folding *f, double x, double y);
+double folding_quotient(folding *f, double x, double y);
+double folding_power(folding *f, double base, double exponent);
 /* A sine, cosine or tangent that is only round-off, such as cos(90 deg), is recorded in folding.rest. */
-double folding_call(function_id function, double x, double y);
+double folding_call(folding *f, function_id function, double x, double y);
 /* `left` is a sum of terms about as large as `size`. If folding.way is FOLDING_NEAREST, returns |left| <= part * size.
  * If not, returns left == 0. A true result with |left| above round-off sets folding.lost to 1. */
-bool folding_cancels(double left, double size, double part);
+bool folding_cancels(folding *f, double left, double size, double part);
 /* folding_cancels() for x - y, with the larger absolute value as `size`. */
-bool folding_same(double x, double y, double part);
+bool folding_same(folding *f, double x, double y, double part);
 
 #endif

@@ -391,7 +391,7 @@ static int hyperbolic(graph *g, int a, bool sine) {
 
 /* Returns an upper (side 1) or lower (side -1) bound on asin(x), or on atan(x) if `tangent`. */
 static double inverse_end(double x, bool tangent, double side) {
-    const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
+    const double angle = folding_call(NULL, tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
     double off = 0x1p-50;
     for (int doubled = 0; doubled < 42; doubled++) {

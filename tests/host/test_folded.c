@@ -395,13 +395,11 @@ TEST(folded, numbers_below_round_off) {
         const double angle_rad = 1.5707963267948966 * (1.0 + 2.0 * dice_one_of(&d, 5));
         const double number = power_of_ten(&d, -3.0, 3.0);
         folding kept = {.way = FOLDING_NEAREST};
-        folding *const before = folding_use(&kept);
-        const double rest = folding_product(folding_call(FN_COS, angle_rad, 0.0), number);
-        (void)folding_sum(number, rest);
+        const double rest =
+            folding_product(&kept, folding_call(&kept, FN_COS, angle_rad, 0.0), number);
+        (void)folding_sum(&kept, number, rest);
         folding lost = kept;
-        (void)folding_use(&lost);
-        (void)folding_sum(rest * power_of_ten(&d, -9.0, -7.0), rest);
-        (void)folding_use(before);
+        (void)folding_sum(&lost, rest * power_of_ten(&d, -9.0, -7.0), rest);
         TEST_ASSERT_TRUE(kept.lost < 1e-9 && lost.lost > 1e-9);
     }
 }

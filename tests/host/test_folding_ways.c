@@ -41,18 +41,16 @@ static int side_of(kind of, double x, double y, double nearest) {
 
 static double folded_by(int way, kind of, double x, double y) {
     folding mine = {.way = way};
-    folding *const before = folding_use(&mine);
     double made = 0.0;
     switch (of) {
-    case SUM: made = folding_sum(x, y); break;
-    case PRODUCT: made = folding_product(x, y); break;
-    case QUOTIENT: made = folding_quotient(x, y); break;
-    case POWER: made = folding_power(fabs(x), y); break;
-    case SINE: made = folding_call(FN_SIN, x, 0.0); break;
-    case ROOT: made = folding_call(FN_SQRT, fabs(x), 0.0); break;
+    case SUM: made = folding_sum(&mine, x, y); break;
+    case PRODUCT: made = folding_product(&mine, x, y); break;
+    case QUOTIENT: made = folding_quotient(&mine, x, y); break;
+    case POWER: made = folding_power(&mine, fabs(x), y); break;
+    case SINE: made = folding_call(&mine, FN_SIN, x, 0.0); break;
+    case ROOT: made = folding_call(&mine, FN_SQRT, fabs(x), 0.0); break;
     case KINDS: break;
     }
-    (void)folding_use(before);
     return made;
 }
 
@@ -146,15 +144,13 @@ TEST(folding_ways, exact_results_stay) {
             TEST_ASSERT_TRUE(folded_by(way, ROOT, x * x, 0.0) == x);
             TEST_ASSERT_TRUE(folded_by(way, POWER, drawn(&d) * 0.0 + x, 2.0) == x * x);
             folding mine = {.way = way};
-            folding *const before = folding_use(&mine);
             const double size = drawn(&d);
-            TEST_ASSERT_TRUE(folding_call(FN_ABS, size, 0.0) == fabs(size));
-            TEST_ASSERT_TRUE(folding_power(size, 1.0) == size);
+            TEST_ASSERT_TRUE(folding_call(&mine, FN_ABS, size, 0.0) == fabs(size));
+            TEST_ASSERT_TRUE(folding_power(&mine, size, 1.0) == size);
             for (size_t k = 0; k < sizeof begins / sizeof *begins; k++) {
-                TEST_ASSERT_TRUE(folding_call(begins[k].function, begins[k].x, 0.0) ==
+                TEST_ASSERT_TRUE(folding_call(&mine, begins[k].function, begins[k].x, 0.0) ==
                                  begins[k].value);
             }
-            (void)folding_use(before);
         }
     }
 }
