@@ -585,8 +585,21 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
             "hint: '%s' exerts a force on every coordinate in this statement: if one of these coordinates only measures time, give it far more inertia, or declare it as an input with a rate\n",
             statement);
     }
-    fputs("hint: try a smaller --step; if the run still fails at this time, check whether the mass "
-          "matrix is singular there\n",
-          out);
+    double *angle_rad = alloc(im->angles + im->reals, sizeof *angle_rad);
+    int worst;
+    kind->state(run, angle_rad, angle_rad + im->angles);
+    if (accelerations_doubt(im, angle_rad, angle_rad + im->angles, &worst) > ACCELERATIONS_DOUBT) {
+        fprintf(
+            out,
+            "whirl run: note: the equations add numbers of very different sizes, so the acceleration of '%s' is "
+            "probably wrong at this time\n" ACCELERATIONS_HINT,
+            im->unknown[worst].name);
+    } else {
+        fputs(
+            "hint: try a smaller --step; if the run still fails at this time, check whether the mass "
+            "matrix is singular there\n",
+            out);
+    }
+    free(angle_rad);
     findings_say_failed(out, v);
 }

@@ -90,6 +90,41 @@ static const image *constant_sensitivity_furthest(const image *im) {
     return im->refolded[furthest];
 }
 
+#define UNIT 0x1p-53 /* unit round-off of double */
+
+/* An acceleration below this, in SI units, counts as zero: only round-off is left where terms cancel. */
+#define LEAST_ACCELERATION 1e-9
+
+double accelerations_doubt(const image *im, const double *angle_rad, const double *real,
+                           int *worst) {
+    const state_list own = state_list_open(im, IMAGE_BOOKS);
+    const double *value = state_list_at(&own, angle_rad, real);
+    double *off = alloc(im->list[IMAGE_BOOKS]->results, sizeof *off);
+    evaluator_rounding(own.evaluator, angle_rad, 0.0, off);
+    for (int i = 0; i < im->count; i++) {
+        off[i] *= UNIT;
+    }
+    for (int k = 0; k < im->ways; k++) {
+        const state_list l = state_list_open(im->refolded[k], IMAGE_BOOKS);
+        const double *other = state_list_at(&l, angle_rad, real);
+        for (int i = 0; i < im->count; i++) {
+            off[i] = number_most(off[i], fabs(other[i] - value[i]));
+        }
+        state_list_close(&l);
+    }
+    double most = 0.0;
+    *worst = 0;
+    for (int i = 0; i < im->count; i++) {
+        const double size = number_most(fabs(value[i]), off[i]);
+        const double part = !isfinite(size) ? 1.0 : size > LEAST_ACCELERATION ? off[i] / size : 0.0;
+        *worst = part > most ? i : *worst;
+        most = number_most(most, part);
+    }
+    free(off);
+    state_list_close(&own);
+    return most;
+}
+
 /* --- the finer run's image ---------------------------------------------------------------------------*/
 
 static whole_ratio half_of(whole_ratio step) {
@@ -216,8 +251,6 @@ typedef struct rounded {
     uint64_t *lost; /* [results]: number of samples whose bound is not finite */
     uint64_t looks; /* number of samples */
 } rounded;
-
-#define UNIT 0x1p-53 /* unit round-off of double */
 
 static rounded *rounded_open(const image *im) {
     const int results = im->list[IMAGE_STEP]->results;

@@ -11,6 +11,15 @@
 
 enum { STEP_DOUBLING_LOOKS = 20000 }; /* limit on the number of comparisons */
 
+#define ACCELERATIONS_DOUBT 1e-3 /* a larger part is reported */
+#define ACCELERATIONS_HINT \
+    "hint: write it without a high power of a sine or cosine of a small angle, or choose parameters of " \
+    "similar sizes\n"
+/* Bound on the part of a highest derivative at a state that is wrong because of round-off, or because folding lost
+ * digits of constants (host/number/folding.h): the largest of all, for the unknown *worst. */
+double accelerations_doubt(const image *im, const double *angle_rad, const double *real,
+                           int *worst);
+
 /* The difference first reached `size` at the comparison that followed `time_s`. */
 typedef struct passage {
     double time_s;

@@ -6,6 +6,7 @@
 
 #include "host/base/alloc.h"
 #include "host/check/nonfinite.h"
+#include "host/check/step_doubling.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
@@ -41,7 +42,7 @@ static const command_usage accel_usage = {
         "\"theta'=330 [rpm]\". A bare number is refused if the declared unit is not SI. Without a value, a\n"
         "state is 0, and an input or parameter has its declared value. A scene includes its effects and\n"
         "their parameters.\n",
-    .why = {"", "an acceleration is not a finite number; the message names the expression", ""}};
+    .why = {"", "an acceleration is not finite, or may be wrong; the message says which", ""}};
 
 /* Reports the expression that is not finite at this state. */
 static void tell_undefined(const image *im, const char *file) {
@@ -69,11 +70,19 @@ static int print_image(const image *im, const char *file) {
         printf("%s%.*s = %.17g\n", im->unknown[i].name, im->unknown[i].order, "''''''''''",
                number_shown(result[i]));
     }
+    int worst;
+    const double doubt = accelerations_doubt(im, im->start_rad, im->start_real, &worst);
     if (!finite) {
         tell_undefined(im, file);
+    } else if (doubt > ACCELERATIONS_DOUBT) {
+        fprintf(
+            stderr,
+            "%s: warning: %s%.*s may be wrong by %.2g of its value, because the equations add numbers of "
+            "very different sizes\n" ACCELERATIONS_HINT,
+            file, im->unknown[worst].name, im->unknown[worst].order, "''''''''''", doubt);
     }
     state_list_close(&books);
-    return finite ? EXIT_DONE : EXIT_RUN_FAILED;
+    return finite && !(doubt > ACCELERATIONS_DOUBT) ? EXIT_DONE : EXIT_RUN_FAILED;
 }
 
 static int accel_work(void *all) {

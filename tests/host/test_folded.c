@@ -870,6 +870,39 @@ TEST(folded_numbers, overflowing_parameters) {
     }
 }
 
+/* A power of a sine becomes a sum of multiple angles. If its coefficients are large, a small term beside the power loses
+ * its digits: `whirl accel` must then warn, unless the value is right. */
+TEST(folded_numbers, small_terms_beside_powers_of_sines) {
+    dice d = dice_of("powers of sines", 5);
+    unsigned warned = 0;
+    unsigned right = 0;
+    for (unsigned i = 0; i < dice_cases(200); i++) {
+        const int n = 2 + 2 * (int)dice_one_of(&d, 6);
+        const double w = power_of_ten(&d, -3.0, 0.0);
+        const double th = w * power_of_ten(&d, -1.5, 0.5);
+        char text[300];
+        char at[40];
+        said what;
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\n"
+                 "Q(th) = 1 [N*m]/(1 + (sin(th)/%.17g)^%d)\n",
+                 w, n);
+        snprintf(at, sizeof at, "th=%.17g", th);
+        COMMAND_SAY(command_accel, &what, model_keep(text), at);
+        const double wanted = 1.0 / (1.0 + pow(sin(th) / w, n));
+        const double is = what.status == 2 ? 0.0 : atof(strchr(what.out, '=') + 1);
+        const bool tells = strstr(what.err, "may be wrong") != NULL;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(tells ? 1 : 0, what.status, text);
+        TEST_ASSERT_TRUE_MESSAGE(tells || fabs(is - wanted) <= 2e-3 * wanted, text);
+        TEST_ASSERT_FALSE_MESSAGE(tells && pow(w, n) > 1e-9, text);
+        warned += tells ? 1U : 0U;
+        right += tells ? 0U : 1U;
+    }
+    model_drop();
+    printf("  %u accelerations with a warning, %u right\n", warned, right);
+    TEST_ASSERT_TRUE(warned > 10U && right > 10U);
+}
+
 static int status_beside(const char *contact) {
     char text[400];
     said what;
