@@ -106,7 +106,7 @@ END
 # `price` reports a quantity without an error, with or without a table
 for quiet in '' --quiet; do
     "$whirl" price $gear --effort 1e7 --until 0.1s --horizon 1e18s $quiet >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq 1 ] && grep -q '^whirl price: error: no error of .* is known' "$scratch/err"
+    [ $? -eq 1 ] && grep -q '^whirl price: error: no setting of .* has a known error' "$scratch/err"
     verdict $? "whirl price ${quiet:-(with its table)}: that no error is known"
 done
 exit $failed

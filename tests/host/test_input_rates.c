@@ -356,7 +356,7 @@ TEST(input_rates, allowed_rates) {
         {"input L rate x = 2 [m]", "the rate of an input is another input"},
         {"input L rate Lv = 2 [m]\ninput Lv = 1 [m]", "must be in [m/s]"},
         {"input L rate Lv = 2 [m]\ninput Lv = 1 [m/s]\nstop x >= Lv*1 [s] restitution 0",
-         "not rates: 'Lv' is a rate"},
+         "not on rates: 'Lv' is a rate"},
         {"input L rate Lv = 2 [m]\nlet v = Lv\ninput Lv = 1 [m/s]", "move the declaration in line"},
         {"input L rate v = 2 [m]\ninput v rate a = 0 [m/s]\ninput a rate j = 0 [m/s^2]\n"
          "input j = 0 [m/s^3]",
