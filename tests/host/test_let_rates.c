@@ -162,7 +162,7 @@ TEST(let_rates, derivatives_of_lets_keep_the_rules) {
     } cases[] = {
         {"V = 1 [N]*z'", "V must be"},
         {"Q(x) = 1 [kg]*z''", "T, V, F and Q cannot contain a second derivative: \"z''\" has one"},
-        {"stop z' >= 0 [m/s] restitution 0", "not on rates: \"z'\" is a rate"},
+        {"stop z' >= 0 [m/s] restitution 0", "not on rates: \"z'\" has a rate"},
         {"output p = z'''", "at most two primes"},
         {"V = 1 [N]*(x + l'*1 [s])", ""},
         {"let w = n'", "the input 'f' has no declared rate"},
