@@ -121,8 +121,7 @@ static const command_usage check_usage = {
         "\n"
         "Reads each FILE, derives its mechanisms and scenes, and checks that each scene can start. Errors\n"
         "go to standard error as FILE:LINE:COLUMN: error: TEXT, which editors understand.\n",
-    .why = {"every scene of every file can be run", NULL,
-            "a file has an error, or cannot be read"}};
+    .why = {"no error was found", NULL, "a file has an error, or cannot be read"}};
 
 static int derive_one(source_model *from, const mechanism *of, const scene *in) {
     const load_request request = {IMAGE_SETTINGS_DEFAULT, IMAGE_TO_RUN, .hints = in == NULL,
