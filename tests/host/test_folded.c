@@ -890,7 +890,7 @@ TEST(folded_numbers, small_terms_beside_powers_of_sines) {
         snprintf(at, sizeof at, "th=%.17g", th);
         COMMAND_SAY(command_accel, &what, model_keep(text), at);
         const double wanted = 1.0 / (1.0 + pow(sin(th) / w, n));
-        const double is = what.status == 2 ? 0.0 : atof(strchr(what.out, '=') + 1);
+        const double is = what.status == 2 ? 0.0 : strtod(strchr(what.out, '=') + 1, NULL);
         const bool tells = strstr(what.err, "may be wrong") != NULL;
         TEST_ASSERT_EQUAL_INT_MESSAGE(tells ? 1 : 0, what.status, text);
         TEST_ASSERT_TRUE_MESSAGE(tells || fabs(is - wanted) <= 2e-3 * wanted, text);
