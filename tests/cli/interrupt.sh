@@ -101,7 +101,7 @@ done
 
 # a map keeps the finished points, in words and as rows
 for signal in INT TERM; do
-    stop $signal "has_worked 40" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv"
+    stop $signal "has_worked 150" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv"
     rows=$(($(wc -l <"$scratch/m.csv") - 1))
     [ "$code" -eq 130 ] && [ "$rows" -gt 0 ] && [ "$rows" -lt 10000 ]
     verdict $? "map, $signal: exit status 130, $rows rows"
