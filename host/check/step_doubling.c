@@ -116,7 +116,10 @@ double accelerations_doubt(const image *im, const double *angle_rad, const doubl
     *worst = 0;
     for (int i = 0; i < im->count; i++) {
         const double size = number_most(fabs(value[i]), off[i]);
-        const double part = !isfinite(size) ? 1.0 : size > LEAST_ACCELERATION ? off[i] / size : 0.0;
+        double part = size > LEAST_ACCELERATION ? off[i] / size : 0.0;
+        if (!isfinite(size)) { /* other messages report values that are not finite */
+            part = isfinite(value[i]) ? 1.0 : 0.0;
+        }
         *worst = part > most ? i : *worst;
         most = number_most(most, part);
     }

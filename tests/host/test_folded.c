@@ -903,6 +903,34 @@ TEST(folded_numbers, small_terms_beside_powers_of_sines) {
     TEST_ASSERT_TRUE(warned > 10U && right > 10U);
 }
 
+/* The same force in a run: a run that it throws out of all bounds must name the cause. A long step, too, makes a run
+ * diverge, and is no loss of digits. */
+TEST(folded_numbers, runs_that_lost_digits_throw_out) {
+    dice d = dice_of("powers of sines", 6);
+    unsigned thrown = 0;
+    for (unsigned i = 0; i < dice_cases(24); i++) {
+        const double w = dice_between(&d, 0.0005, 0.003);
+        char force[80];
+        char text[400];
+        said what;
+        snprintf(force, sizeof force, "1 [N*m]/(1 + (sin(th)/%.17g)^8)", w);
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate th [rad]\ncoordinate x [m]\n"
+                 "T = 0.1 [kg*m^2]*th'^2/2 + 1 [kg]*x'^2/2\nV = %s [N/m]*x^2/2\nQ(th) = %s\n"
+                 "scene s { start th = %.17g [rad], th' = 1 [rad/s], x = 1 [m]\n"
+                 "step 1 [ms]\nuntil 0.2 [s] }\n",
+                 i % 2 == 0 ? "1" : "1e12", i % 2 == 0 ? force : "0 [N*m]", -2.0 * w);
+        command_say_model(command_run, text, &what);
+        const bool out = strstr(what.err, "grew without bound") != NULL;
+        const bool names = strstr(what.err, "numbers of very different sizes") != NULL;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, what.err);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(out && i % 2 == 0, names, what.err);
+        thrown += out && names ? 1U : 0U;
+    }
+    printf("  %u runs thrown out by lost digits\n", thrown);
+    TEST_ASSERT_TRUE(thrown > 1U);
+}
+
 static int status_beside(const char *contact) {
     char text[400];
     said what;
